@@ -1,0 +1,48 @@
+// The film: per-pixel sums of samples as integers, so that neither the order of samples nor the split into parts changes a bit.
+// Both integrators fill one; `develop` turns it into an image.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stokes {
+
+/// Sums over samples; the words of a pixel are laid out as layout.h says (FILM_BASE_WORDS and the channels after it).
+struct Film {
+  int width = 0, height = 0;            ///< of the window that is rendered
+  int crop_x = 0, crop_y = 0;           ///< the window's place in the full image
+  int full_width = 0, full_height = 0;
+  unsigned channels = 0;                ///< FILM_*
+  int spectral_bins = 0;
+  double spectral_begin = 0, spectral_end = 0;
+  double quantum = 1, depth_quantum = 1;
+  int stride = 0;                       ///< words per pixel
+  std::vector<std::int64_t> words;      ///< height * width * stride
+};
+
+/// Named float planes, row 0 at the top. Channel names are the EXR's ("R", "Albedo.R", "Variance.R", "S0.550,000000nm").
+struct Image {
+  int width = 0, height = 0;
+  struct Channel {
+    std::string name;
+    std::vector<float> values;  ///< height * width
+  };
+  std::vector<Channel> channels;
+  std::vector<std::pair<std::string, std::string>> metadata;
+  const Channel* find(const std::string& name) const;
+};
+
+/// An empty film for a scene's window.
+Film make_film(int full_width, int full_height, int crop_x, int crop_y, int width, int height, unsigned channels, int spectral_bins,
+               double spectral_begin, double spectral_end, double quantum, double depth_quantum);
+
+/// Adds one sample of one pixel (the reference's way in; the kernels do the same on the device). rgb in film radiance; aovs and bins
+/// follow the order of layout.h and may be null where not used. A sample that is not finite, or too large for the film, is counted
+/// as invalid and left out.
+void film_add(Film& film, int x, int y, const double rgb[3], double alpha, const double* aovs, const double* bins);
+
+/// Means, and with `variance` the variance of each pixel's mean (Variance.R, .G, .B).
+Image develop(const Film& film, bool variance);
+
+}  // namespace stokes
