@@ -189,11 +189,11 @@ enum TextureType {
 // t = (lambda - 280) / 500 and sigmoid(x) = 1/2 + x / (2 sqrt(1 + x^2)). In RGB mode (r, g, b, 0).
 typedef struct {
   uint type;
-  uint a;           // spectrum reference (may be a texture again, except for marble)
-  uint b;
+  uint a;           // spectrum reference (may be a texture again, except for marble); read at its first entry by scalar textures
+  uint b;           // image: spectrum its texels are multiplied by (D65 for emissions), or STOKES_NONE
   float scale;
   float parameter;  // wireframe: thickness; fresnel: ior
-  uint image_offset;  // first texel (in floats) of an image, or vertex mask
+  uint image_offset;  // first texel (in floats) of an image; vertex mask: one float for every vertex of the scene
   uint image_width;
   uint image_height;
   uint first_shape;  // region
@@ -294,7 +294,8 @@ typedef struct {
   uint width, height;
   float scale;
   float to_local[9];  // world directions into the image's frame
-  uint padding[3];
+  uint illuminant;    // spectrum table that the upsampled texels are multiplied by (D65)
+  uint padding[2];
 } Environment;
 LAYOUT_CHECK(Environment, 64);
 
