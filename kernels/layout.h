@@ -181,6 +181,10 @@ enum TextureType {
   TEXTURE_VERTEX_MASK = 6 // scalar mask interpolated from the mesh's vertices
 };
 
+// Marble's noise, so that both integrators draw the same veins: gradient noise with Hermite weights; the gradient at the lattice point
+// (i, j, k) is the unit vector with z = 1 - 2 ((h & 0xffff) + 1/2) / 65536 and azimuth 2 pi ((h >> 16) + 1/2) / 65536, where
+// h = i * 73856093 ^ j * 19349663 ^ k * 83492791 (modulo 2^32), then h ^= h >> 16, h *= 0x7feb352d, h ^= h >> 15, h *= 0x846ca68b, h ^= h >> 16.
+// turbulence(p) = |sum over i < 7 of 2^-i noise(2^i p)|; value = veins + (base - veins) (1 + sin(scale z + 10 turbulence)) / 2.
 #define TEXTURE_SCALAR_IMAGE 1u  // texels are single floats (masks, amounts), not four
 #define TEXTURE_WRAP_CLAMP 2u    // default is repeat
 #define TEXTURE_NEAREST 4u
