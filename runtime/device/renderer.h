@@ -1,6 +1,6 @@
 // Renders a compiled scene on one OpenCL device. Nothing outside runtime/device includes an OpenCL header.
 #pragma once
-#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,8 +23,13 @@ struct DeviceInfo {
 
 /// Every device of every platform; platforms without devices are skipped, never an error.
 std::vector<DeviceInfo> list_devices();
-/// The device that `spec` names ("auto", "gpu", "cpu", "P:D", part of a name). Throws DeviceError (also listing the matches when ambiguous).
-DeviceInfo choose_device(const std::string& spec);
+/// The device that `spec` names ("auto", "gpu", "cpu", "P:D", part of a name). "auto" takes the first GPU with `need_bytes` of memory,
+/// else the first such accelerator, else a CPU. Throws DeviceError (also listing the matches when ambiguous).
+DeviceInfo choose_device(const std::string& spec, std::uint64_t need_bytes = 0);
+/// The same among given devices.
+DeviceInfo choose_among(const std::vector<DeviceInfo>& devices, const std::string& spec, std::uint64_t need_bytes = 0);
+/// What a scene's arrays take on a device, without the film.
+std::uint64_t scene_bytes(const CompiledScene& scene);
 
 struct RenderCounters {
   std::uint64_t rays = 0, shadow_rays = 0, scatterings = 0, paths = 0, invalid = 0;
@@ -54,6 +59,8 @@ class Renderer {
   const RenderCounters& counters() const;
   double build_seconds() const;
   const DeviceInfo& device() const;
+  /// One-line warnings from the build (such as kernels that only built without optimisation); to be shown once.
+  const std::vector<std::string>& warnings() const;
 
  private:
   struct State;
