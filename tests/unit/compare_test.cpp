@@ -1,0 +1,81 @@
+// Differences of images with known answers.
+#include "image/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "image/error.h"
+#include "image/flip.h"
+
+namespace stokes {
+namespace {
+
+Image flat(int width, int height, float r, float g, float b) {
+  Image image;
+  image.width = width;
+  image.height = height;
+  const std::size_t n = static_cast<std::size_t>(width * height);
+  image.channels = {{"R", std::vector<float>(n, r)}, {"G", std::vector<float>(n, g)}, {"B", std::vector<float>(n, b)}};
+  return image;
+}
+
+TEST(Compare, SquaredErrorsOfFlatImages) {
+  const ImageDifference d = compare_images(flat(4, 3, 0.6f, 0.5f, 0.5f), flat(4, 3, 0.5f, 0.5f, 0.5f));
+  EXPECT_NEAR(d.mse, 0.01 / 3, 1e-8);
+  EXPECT_NEAR(d.relative_mse, 0.01 / 0.26 / 3, 1e-7);
+  EXPECT_NEAR(d.largest, 0.1, 1e-7);
+  EXPECT_FALSE(d.identical);
+  EXPECT_NEAR(d.mean_a[0], 0.6, 1e-6);
+}
+
+TEST(Compare, AnImageEqualsItself) {
+  const Image image = flat(9, 9, 0.2f, 0.9f, 0.1f);
+  const ImageDifference d = compare_images(image, image);
+  EXPECT_TRUE(d.identical);
+  EXPECT_EQ(d.mse, 0);
+  EXPECT_EQ(d.flip, 0);
+}
+
+TEST(Compare, NotFiniteValuesAreCounted) {
+  Image image = flat(2, 2, 1, 1, 1);
+  image.channels[1].values[3] = NAN;
+  EXPECT_EQ(compare_images(image, flat(2, 2, 1, 1, 1)).not_finite, 1u);
+}
+
+TEST(Compare, SizesMustMatch) { EXPECT_THROW(compare_images(flat(2, 2, 1, 1, 1), flat(2, 3, 1, 1, 1)), InputError); }
+
+// Without structure FLIP is the redistributed colour difference alone: green against blue is its definition of 1.
+TEST(Flip, GreenAgainstBlueIsOne) { EXPECT_NEAR(flip_difference(flat(8, 8, 0, 1, 0), flat(8, 8, 0, 0, 1)), 1, 1e-3); }
+
+TEST(Flip, BlackAgainstWhite) {
+  // HyAB of black and white is 100, of green and blue 308.1 with the Hunt effect: (100^0.7 / (0.4 * 308.1^0.7)) * 0.95 where below the knee, else
+  // above it. Computed here from the paper's formulas independently of the code's planes.
+  const auto curve = [](double t) { return std::cbrt(t); };
+  const auto hunt = [&](double x, double y, double z, double out[3]) {
+    out[0] = 116 * curve(y) - 16;
+    out[1] = 5 * out[0] * (curve(x) - curve(y));
+    out[2] = 2 * out[0] * (curve(y) - curve(z));
+  };
+  double g[3], b[3];
+  hunt(0.3575761 / 0.950428545, 0.7151522, 0.1191920 / 1.088900371, g);
+  hunt(0.1804375 / 0.950428545, 0.0721750, 0.9503041 / 1.088900371, b);
+  const double largest = std::pow(std::fabs(g[0] - b[0]) + std::hypot(g[1] - b[1], g[2] - b[2]), 0.7), error = std::pow(100.0, 0.7);
+  const double knee = 0.4 * largest;
+  const double expected = error < knee ? 0.95 * error / knee : 0.95 + 0.05 * (error - knee) / (largest - knee);
+  EXPECT_NEAR(flip_difference(flat(8, 8, 0, 0, 0), flat(8, 8, 1, 1, 1)), expected, 1e-3);
+}
+
+TEST(Flip, StructureCountsAndSmallNoiseHardly) {
+  Image a = flat(48, 48, 0.5f, 0.5f, 0.5f), lines = a, faint = a;
+  for (std::size_t i = 0; i < 48 * 48; i++)
+    for (std::size_t c = 0; c < 3; c++) {
+      lines.channels[c].values[i] = i % 12 == 0 ? 1.0f : 0.46f;
+      faint.channels[c].values[i] = i % 2 ? 0.501f : 0.499f;
+    }
+  EXPECT_GT(flip_difference(a, lines), 0.1);
+  EXPECT_LT(flip_difference(a, faint), 0.03);
+}
+
+}  // namespace
+}  // namespace stokes
