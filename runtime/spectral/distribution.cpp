@@ -24,7 +24,8 @@ double sample_distribution(const SpectrumTable& t, const TableDistribution& d, d
   const double left = std::max(0.0f, t[2 * c]), right = std::max(0.0f, t[2 * c + 1]);
   if (left + right <= 0) return kLambdaMin + c + v;
   // Solves left x + (right - left) x^2 / 2 = v (left + right) / 2 in the form without cancellation.
-  const double x = v * (left + right) / (left + std::sqrt(left * left + v * (right * right - left * left)));
+  const double root = left + std::sqrt(left * left + v * (right * right - left * left));
+  const double x = root > 0 ? v * (left + right) / root : 0;  // 0 / 0 where a density that begins at 0 meets u = 0
   return kLambdaMin + c + std::min(x, 1.0);
 }
 
