@@ -1,0 +1,58 @@
+// The camera's basis and lens, and the medium that it stands in.
+#include <cmath>
+#include <numbers>
+
+#include "compiled/bounds.h"
+#include "compiled/compilation.h"
+#include "compiled/first_hit.h"
+#include "compiled/shapes.h"
+
+namespace stokes::compiled {
+namespace {
+
+void check_camera(const Compilation& c, const CameraDescription& camera) {
+  const double determinant = camera.transform.determinant();
+  if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) c.fail(camera.pointer, "the camera's transform must be invertible");
+  if (!camera.orthographic && !(camera.vfov > 0 && camera.vfov < 180)) c.fail(camera.pointer, "vfov must be between 0 and 180 degrees");
+  if (camera.orthographic && !(camera.height > 0)) c.fail(camera.pointer, "height must be positive");
+  if (camera.width <= 0 || camera.height_pixels <= 0) c.fail(camera.pointer, "the resolution must be positive");
+  if (!(camera.aperture >= 0)) c.fail(camera.pointer, "the aperture must not be negative");
+  if (camera.aperture > 0 && !(camera.fdist > 0)) c.fail(camera.pointer, "fdist must be positive");
+}
+
+// The side of the first surface along the view tells the medium; nothing in view is vacuum.
+std::uint32_t medium_in_front(const CompiledScene& scene, Vec3d position, Vec3d direction) {
+  const std::optional<FirstHit> hit = first_hit(scene, position, direction);
+  if (!hit) return 0;
+  const layout::Surface& surface = scene.surfaces[hit->surface];
+  return dot(hit->normal, direction) < 0 ? surface.medium_outside : surface.medium_inside;
+}
+
+}  // namespace
+
+void compile_camera(Compilation& c) {
+  const CameraDescription& camera = c.scene.camera;
+  check_camera(c, camera);
+  layout::Camera& out = c.out.header.camera;
+  const Vec3d x = camera.transform.column(0), y = camera.transform.column(1), z = camera.transform.column(2);
+  const double half_height = camera.orthographic ? camera.height / 2 : std::tan(camera.vfov * std::numbers::pi / 360);
+  const double aspect = double(camera.width) / camera.height_pixels;
+  // Axes are stored without their scale. Seen from the centre of projection only the ratio to the depth axis matters.
+  const double depth = camera.orthographic ? 1 : length(z);
+  out.position = to_float(camera.transform.translation());
+  out.type = camera.orthographic ? layout::CAMERA_ORTHOGRAPHIC : layout::CAMERA_PERSPECTIVE;
+  out.axis_x = to_float(normalize(x));
+  out.axis_y = to_float(normalize(y));
+  out.axis_z = to_float(normalize(z));
+  out.half_width = float(half_height * aspect * length(x) / depth);
+  out.half_height = float(half_height * length(y) / depth);
+  out.lens_radius = float(camera.aperture * length(x));
+  out.focal_distance = float(camera.fdist * length(z));
+  out.width = std::uint32_t(camera.width);
+  out.height = std::uint32_t(camera.height_pixels);
+  out.medium = camera.medium ? compile_medium(c, camera.medium->get())
+                             : medium_in_front(c.out, to_double(out.position), -1.0 * normalize(z));
+  c.out.features.lens = camera.aperture > 0;
+}
+
+}  // namespace stokes::compiled

@@ -1,0 +1,91 @@
+// Quads, spheres and ellipsoids under affine maps. See shapes.h.
+#include "compiled/shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace stokes::compiled {
+
+std::optional<layout::Quad> make_quad(const Affine& to_world, double width, double height, bool flip) {
+  // The corners as the device will have them; everything else follows from these floats.
+  layout::Quad q{};
+  q.corner = to_float(to_world.point({-width / 2, -height / 2, 0}));
+  q.edge_u = to_float(to_world.vector({width, 0, 0}));
+  q.edge_v = to_float(to_world.vector({0, height, 0}));
+  const Vec3d corner = to_double(q.corner), u = to_double(q.edge_u), v = to_double(q.edge_v);
+  const Vec3d n = cross(u, v);
+  const double area = length(n);
+  if (!(area > 0) || !std::isfinite(area)) return std::nullopt;
+
+  // The front side is the side that the local +z points to, whatever the winding became.
+  const Vec3d front = to_world.normal({0, 0, 1}) * (flip ? -1.0 : 1.0);
+  q.normal = to_float(n * ((dot(n, front) < 0 ? -1.0 : 1.0) / area));
+  q.offset = float(dot(to_double(q.normal), corner));
+  q.area = float(area);
+
+  // Dual vectors: dot(dual_u, edge_u) = 1, dot(dual_u, edge_v) = 0, and the other way round.
+  const Vec3d dual_u = cross(v, n) / dot(n, n), dual_v = cross(n, u) / dot(n, n);
+  q.dual_u = to_float(dual_u);
+  q.dual_v = to_float(dual_v);
+  q.u0 = float(dot(to_double(q.dual_u), corner));
+  q.v0 = float(dot(to_double(q.dual_v), corner));
+  q.light = STOKES_NONE;
+  return q;
+}
+
+std::optional<double> uniform_scale(const Affine& a) {
+  const Vec3d x = a.column(0), y = a.column(1), z = a.column(2);
+  const double s2 = (dot(x, x) + dot(y, y) + dot(z, z)) / 3, tolerance = 1e-6 * s2;
+  for (double d : {dot(x, x) - s2, dot(y, y) - s2, dot(z, z) - s2, dot(x, y), dot(y, z), dot(z, x)})
+    if (!(std::abs(d) <= tolerance)) return std::nullopt;
+  return std::sqrt(s2);
+}
+
+layout::Sphere make_sphere(const Affine& to_world, double radius, bool flip) {
+  const double scale = *uniform_scale(to_world);
+  layout::Sphere s{};
+  s.center = to_float(to_world.translation());
+  s.radius = float(radius * scale);
+  // The inverse of a scaled rotation is its transpose over the scale squared; row i is column i.
+  for (int i = 0; i < 3; i++) {
+    const Vec3d row = to_world.column(i) / scale;
+    s.to_local[3 * i] = float(row.x), s.to_local[3 * i + 1] = float(row.y), s.to_local[3 * i + 2] = float(row.z);
+  }
+  s.light = STOKES_NONE;
+  s.flip = flip;
+  return s;
+}
+
+namespace {
+
+// int over the unit sphere of the area's Jacobian |cof(M) n|, by the midpoint rule: exact to many digits in the longitude, and
+// accurate to about 1e-5 in cos(theta).
+double ellipsoid_area(const Affine& m) {
+  const int rows = 256, columns = 256;
+  const Vec3d cx = cross(m.column(1), m.column(2)), cy = cross(m.column(2), m.column(0)), cz = cross(m.column(0), m.column(1));
+  double sum = 0;
+  for (int i = 0; i < rows; i++) {
+    const double z = -1 + (2 * i + 1.0) / rows, r = std::sqrt(1 - z * z);
+    for (int j = 0; j < columns; j++) {
+      const double phi = 2 * std::numbers::pi * j / columns;
+      sum += length(cx * (r * std::cos(phi)) + cy * (r * std::sin(phi)) + cz * z);
+    }
+  }
+  return sum * 4 * std::numbers::pi / (rows * columns);
+}
+
+}  // namespace
+
+layout::Ellipsoid make_ellipsoid(const Affine& to_world, double radius, bool flip) {
+  Affine unit;
+  unit.m = {radius, 0, 0, 0, 0, radius, 0, 0, 0, 0, radius, 0};
+  const Affine world = to_world * unit, local = world.inverse();
+  layout::Ellipsoid e{};
+  for (int i = 0; i < 12; i++) e.to_world[i] = float(world.m[i]), e.to_local[i] = float(local.m[i]);
+  e.area = float(ellipsoid_area(world));
+  e.light = STOKES_NONE;
+  e.flip = flip;
+  return e;
+}
+
+}  // namespace stokes::compiled
