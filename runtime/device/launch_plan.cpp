@@ -11,7 +11,7 @@ LaunchPlan::LaunchPlan(std::uint32_t pixels, std::uint32_t sample_begin, std::ui
 
 LaunchPlan::Range LaunchPlan::next() const {
   if (pixel_ == 0 && budget_ >= pixels_) {
-    const std::uint64_t passes = std::min<std::uint64_t>(budget_ / pixels_, end_ - sample_);
+    const std::uint64_t passes = std::min<std::uint64_t>((budget_ + pixels_ / 2) / pixels_, end_ - sample_);
     return {0, pixels_, sample_, sample_ + static_cast<std::uint32_t>(passes)};
   }
   // A rest of less than a quarter launch is not worth one of its own.

@@ -8,7 +8,6 @@
 #include "device/build_constants.h"
 #include "device/calls.h"
 #include "device/device_list.h"
-#include "device/film_words.h"
 #include "device/kernel_files.h"
 #include "device/launch_plan.h"
 #include "device/program.h"
@@ -86,7 +85,7 @@ struct Renderer::State {
   void prepare_film(const Film& film);
   void read_counters();
   void run(const Film& film, std::uint32_t seed, const LaunchPlan::Range& range);
-  std::vector<std::int64_t> read_words(const cl::Buffer& buffer) const;
+  Film read_film(const cl::Buffer& buffer, const Film& shape) const;
 };
 
 Renderer::State::State(const CompiledScene& scene, const DeviceInfo& chosen, const DeviceOptions& options)
@@ -184,10 +183,10 @@ void Renderer::State::read_counters() {
   counters = sum;
 }
 
-std::vector<std::int64_t> Renderer::State::read_words(const cl::Buffer& buffer) const {
-  std::vector<std::int64_t> words(film_bytes / sizeof(std::int64_t));
-  queue.enqueueReadBuffer(buffer, CL_TRUE, 0, film_bytes, words.data());
-  return words;
+Film Renderer::State::read_film(const cl::Buffer& buffer, const Film& shape) const {
+  Film film = shape;
+  queue.enqueueReadBuffer(buffer, CL_TRUE, 0, film_bytes, film.words.data());
+  return film;
 }
 
 Renderer::Renderer(const CompiledScene& scene, const DeviceInfo& device, const DeviceOptions& options)
@@ -243,9 +242,9 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
     const bool whole = plan.between_passes();
     const std::uint32_t samples_end = whole ? plan.whole_passes_end() : copied_end;
     if (samples_end > static_cast<std::uint32_t>(begin)) {
-      const std::vector<std::int64_t> words = state.read_words(whole ? state.film_buffer : state.film_copy);
-      add_film_words(film, words);
-      state.counters.invalid += count_invalid(film, words);
+      const Film part = state.read_film(whole ? state.film_buffer : state.film_copy, film);
+      film_accumulate(film, part);
+      state.counters.invalid += film_totals(part).invalid;
     }
     state.read_counters();
     return static_cast<int>(samples_end);
