@@ -221,6 +221,9 @@ LAYOUT_CHECK(Region, 32);
 // ---- Media and fluorescence ------------------------------------------------------------------------------------
 #define MEDIUM_ISOTROPIC 1u
 #define MEDIUM_CHROMATIC 2u  // sigma_t or g depends on the wavelength
+// Every surface that borders on it is refracting or opaque, none shines into it and at least one is a dielectric: from inside, light
+// is found by hitting it and not sought. A matter of speed only: both ways are unbiased.
+#define MEDIUM_SEALED 4u
 // A homogeneous participating medium, coefficients per scene unit; medium 0 is vacuum (all coefficients zero).
 typedef struct {
   uint sigma_t;  // spectrum tables; sigma_t includes what its dyes absorb
@@ -291,7 +294,8 @@ typedef struct {
 } Light;
 LAYOUT_CHECK(Light, 32);
 
-// An equirectangular environment: u = longitude, v = latitude from the top. Sampled by row and column CDFs of
+// An equirectangular environment. For a direction (x, y, z) in the image's frame u = 1/2 + atan2(x, -z) / (2 pi) and v = acos(y) / pi from
+// the top, so the image's centre lies at -z. Bilinear between texel centres, repeating in u and clamped in v. Sampled by row and column CDFs of
 // (height + 1) and height * (width + 1) floats in `environment_cdf`.
 typedef struct {
   uint image_offset;
