@@ -1,0 +1,106 @@
+// Rays against the whole scene: the nearest hit, and whether anything is in the way. Quads, spheres and ellipsoids are tested for
+// all lanes at once, triangles lane by lane through the BVH. Knows shapes, not materials.
+//
+// No scene-wide epsilon: a ray that starts on a primitive names it (`exclude`) and starts at offset_origin.
+#ifndef STOKES_INTERSECT_CL
+#define STOKES_INTERSECT_CL
+#include "clearance.cl"
+#include "shapes.cl"
+#include "surface.cl"
+#include "traverse.cl"
+
+/// Adopts distance t (0: none) to primitive i where it is nearer.
+STOKES_FN void keep_nearer(Hit* hit, Real t, int i) {
+  const Mask nearer = (t > real(0.0f)) & (t < hit->t);
+  hit->t = nearer ? t : hit->t;
+  hit->primitive = nearer ? integer(i) : hit->primitive;
+}
+
+STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int exclude, Mask active, Hit* hit) {
+  float ox[LANES], oy[LANES], oz[LANES], dx[LANES], dy[LANES], dz[LANES], ts[LANES], us[LANES], vs[LANES];
+  int excludes[LANES], primitives[LANES];
+  store_real(o.x, ox), store_real(o.y, oy), store_real(o.z, oz);
+  store_real(d.x, dx), store_real(d.y, dy), store_real(d.z, dz);
+  store_real(hit->t, ts), store_real(hit->u, us), store_real(hit->v, vs);
+  store_int(exclude, excludes), store_int(hit->primitive, primitives);
+  const int first = first_triangle(view);
+  for (uint lanes = lane_bits(active); lanes != 0u; lanes &= lanes - 1u) {
+    const uint j = lowest_lane(lanes);
+    TriangleHit found = {ts[j], 0.0f, 0.0f, STOKES_NONE};
+    // A negative difference is no triangle's index, and an unused slot is never hit.
+    traverse_closest(view->bvh_nodes, view->bvh_leaves, (float3)(ox[j], oy[j], oz[j]), (float3)(dx[j], dy[j], dz[j]),
+                     (uint)(excludes[j] - first), &found);
+    if (found.index == STOKES_NONE) continue;
+    ts[j] = found.t;
+    us[j] = found.b1;
+    vs[j] = found.b2;
+    primitives[j] = first + (int)found.index;
+  }
+  hit->t = load_real(ts);
+  hit->u = load_real(us);
+  hit->v = load_real(vs);
+  hit->primitive = load_int(primitives);
+}
+
+/// The nearest hit in (0, tmax). d is a unit vector. `exclude` is the primitive that the ray starts on, or -1: it is skipped
+/// if flat, and met only at its far side if curved. Lanes that are not active get primitive -1.
+STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+  Hit hit;
+  hit.t = tmax;
+  hit.primitive = integer(-1);
+  hit.u = real(0.0f);
+  hit.v = real(0.0f);
+  const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
+  if (SCENE_HAS_QUADS)
+    for (int i = 0; i < quads; i++)
+      keep_nearer(&hit, exclude == integer(i) ? real(0.0f) : meet_quad(view->quads + i, o, d), i);
+  if (SCENE_HAS_SPHERES)
+    for (int i = quads; i < spheres; i++)
+      keep_nearer(&hit, meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i)), i);
+  if (SCENE_HAS_ELLIPSOIDS)
+    for (int i = spheres; i < ellipsoids; i++)
+      keep_nearer(&hit, meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, exclude == integer(i)), i);
+  hit.primitive = active ? hit.primitive : integer(-1);
+  if (SCENE_HAS_TRIANGLES) closest_triangles(view, o, d, exclude, active, &hit);
+  return hit;
+}
+
+STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+  float ox[LANES], oy[LANES], oz[LANES], dx[LANES], dy[LANES], dz[LANES], ts[LANES];
+  int excludes[LANES];
+  store_real(o.x, ox), store_real(o.y, oy), store_real(o.z, oz);
+  store_real(d.x, dx), store_real(d.y, dy), store_real(d.z, dz);
+  store_real(tmax, ts), store_int(exclude, excludes);
+  uint blocked = 0u;
+  for (uint lanes = lane_bits(active); lanes != 0u; lanes &= lanes - 1u) {
+    const uint j = lowest_lane(lanes);
+    if (traverse_any(view->bvh_nodes, view->bvh_leaves, (float3)(ox[j], oy[j], oz[j]), (float3)(dx[j], dy[j], dz[j]),
+                     (uint)(excludes[j] - first_triangle(view)), ts[j]))
+      blocked |= 1u << j;
+  }
+  return lane_mask(blocked);
+}
+
+/// True where anything but `exclude` (as in closest_hit) lies in (0, tmax). Interfaces count. False where not active.
+STOKES_FN Mask occluded(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+  const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
+  Mask open = active;
+  if (SCENE_HAS_QUADS)
+    for (int i = 0; i < quads; i++) {
+      const Real t = meet_quad(view->quads + i, o, d);
+      open = open & ((exclude == integer(i)) | !((t > real(0.0f)) & (t < tmax)));
+    }
+  if (SCENE_HAS_SPHERES)
+    for (int i = quads; i < spheres; i++) {
+      const Real t = meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i));
+      open = open & !((t > real(0.0f)) & (t < tmax));
+    }
+  if (SCENE_HAS_ELLIPSOIDS)
+    for (int i = spheres; i < ellipsoids; i++) {
+      const Real t = meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, exclude == integer(i));
+      open = open & !((t > real(0.0f)) & (t < tmax));
+    }
+  if (SCENE_HAS_TRIANGLES) open = open & !triangles_occlude(view, o, d, tmax, exclude, open);
+  return active & !open;
+}
+#endif

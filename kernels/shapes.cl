@@ -1,0 +1,75 @@
+// Single shapes against rays, all lanes at once, and how primitives are counted. Knows neither the BVH nor surfaces.
+#ifndef STOKES_SHAPES_CL
+#define STOKES_SHAPES_CL
+#include "math.cl"
+#include "view.cl"
+
+/// primitive is the global index (quads, spheres, ellipsoids, triangles) or -1. u and v are a triangle's weights of its second
+/// and third vertex, otherwise undefined. t is in units of |d|.
+typedef struct {
+  Real t;
+  Int primitive;
+  Real u, v;
+} Hit;
+
+STOKES_FN int first_sphere(const SceneView* view) { return (int)view->scene->quad_count; }
+STOKES_FN int first_ellipsoid(const SceneView* view) { return first_sphere(view) + (int)view->scene->sphere_count; }
+STOKES_FN int first_triangle(const SceneView* view) { return first_ellipsoid(view) + (int)view->scene->ellipsoid_count; }
+
+/// Distance to a quad, or 0. Worked out from the corner, so that the error scales with the ray, not with the place in the
+/// world; the quad is grown by that error, so that quads that share an edge leave no gap.
+STOKES_FN Real meet_quad(const __global Quad* quad, Real3 o, Real3 d) {
+  const Vec3 n = quad->normal, du = quad->dual_u, dv = quad->dual_v, corner = quad->corner;
+  const Real3 q = real3(o.x - corner.x, o.y - corner.y, o.z - corner.z);
+  const Real height = fma(q.x, real(n.x), fma(q.y, real(n.y), q.z * n.z));
+  const Real slope = fma(d.x, real(n.x), fma(d.y, real(n.y), d.z * n.z));
+  const Real t = -height / slope;
+  const Real3 p = madd3(q, d, t);
+  const Real u = fma(p.x, real(du.x), fma(p.y, real(du.y), p.z * du.z));
+  const Real v = fma(p.x, real(dv.x), fma(p.y, real(dv.y), p.z * dv.z));
+  const Real slack = (abs_real(q.x) + abs_real(q.y) + abs_real(q.z) + t) * 2.384185791015625e-7f;
+  const Real reach_u = fma(slack, real(fabs(du.x) + fabs(du.y) + fabs(du.z)), real(0.5f));
+  const Real reach_v = fma(slack, real(fabs(dv.x) + fabs(dv.y) + fabs(dv.z)), real(0.5f));
+  const Mask inside = (abs_real(u - 0.5f) <= reach_u) & (abs_real(v - 0.5f) <= reach_v) & (t > real(0.0f));
+  return inside ? t : real(0.0f);
+}
+
+/// Distance along the unit direction d to a sphere round the origin, or 0.
+///
+/// The discriminant comes from the chord's distance to the centre, not from b^2 - c, and the smaller root from the larger
+/// (Haines, Guenther and Akenine-Moeller 2019). Rays that start on the sphere can only meet its far side, from inside.
+STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Mask on_it) {
+  const Real b = -dot3(o, d);
+  const Real3 chord = madd3(o, d, b);
+  const Real distance = sqrt_real(dot3(chord, chord));
+  const Real discriminant = (radius - distance) * (radius + distance);
+  const Real q = b + copysign_real(safe_sqrt(discriminant), b);
+  const Real m = sqrt_real(dot3(o, o));
+  const Real c = (m - radius) * (m + radius);
+  const Real other = c / q;
+  const Real first = min_real(q, other), last = max_real(q, other);
+  Real t = first > real(0.0f) ? first : last;
+  t = on_it ? (b > real(0.0f) ? q : real(0.0f)) : t;
+  const Mask met = (discriminant >= real(0.0f)) & (t > real(0.0f));
+  return met ? t : real(0.0f);
+}
+
+STOKES_FN Real meet_sphere(const __global Sphere* sphere, Real3 o, Real3 d, Mask on_it) {
+  const Vec3 c = sphere->center;
+  return meet_centred_sphere(real3(o.x - c.x, o.y - c.y, o.z - c.z), d, real(sphere->radius), on_it);
+}
+
+/// Rows 0 to 2 of a 3x4 matrix times (p, w).
+STOKES_FN Real3 transform3x4(const __global float* m, Real3 p, float w) {
+  return real3(fma(p.x, real(m[0]), fma(p.y, real(m[1]), fma(p.z, real(m[2]), real(m[3] * w)))),
+               fma(p.x, real(m[4]), fma(p.y, real(m[5]), fma(p.z, real(m[6]), real(m[7] * w)))),
+               fma(p.x, real(m[8]), fma(p.y, real(m[9]), fma(p.z, real(m[10]), real(m[11] * w)))));
+}
+
+STOKES_FN Real meet_ellipsoid(const __global Ellipsoid* ellipsoid, Real3 o, Real3 d, Mask on_it) {
+  const Real3 local_d = transform3x4(ellipsoid->to_local, d, 0.0f);
+  const Real inv_length = real(1.0f) / sqrt_real(dot3(local_d, local_d));
+  return meet_centred_sphere(transform3x4(ellipsoid->to_local, o, 1.0f), scale3(local_d, inv_length), real(1.0f), on_it) *
+         inv_length;
+}
+#endif
