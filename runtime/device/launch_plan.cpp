@@ -5,13 +5,19 @@
 
 namespace stokes {
 
-LaunchPlan::LaunchPlan(std::uint32_t pixels, std::uint32_t sample_begin, std::uint32_t sample_end, std::uint64_t first_paths, double target_seconds)
-    : pixels_(pixels), sample_(sample_begin), end_(std::max(sample_begin, sample_end)), budget_(std::max<std::uint64_t>(first_paths, 1)),
+LaunchPlan::LaunchPlan(std::uint32_t pixels, std::uint32_t sample_begin, std::uint32_t sample_end, std::uint64_t first_paths,
+                       std::uint64_t most_paths, double target_seconds)
+    : pixels_(pixels),
+      sample_(sample_begin),
+      end_(std::max(sample_begin, sample_end)),
+      most_paths_(std::max<std::uint64_t>(most_paths, 1)),
+      budget_(std::clamp<std::uint64_t>(first_paths, 1, most_paths_)),
       target_seconds_(target_seconds) {}
 
 LaunchPlan::Range LaunchPlan::next() const {
   if (pixel_ == 0 && budget_ >= pixels_) {
-    const std::uint64_t passes = std::min<std::uint64_t>((budget_ + pixels_ / 2) / pixels_, end_ - sample_);
+    const std::uint64_t rounded = budget_ < most_paths_ ? budget_ + pixels_ / 2 : budget_;
+    const std::uint64_t passes = std::min<std::uint64_t>(rounded / pixels_, end_ - sample_);
     return {0, pixels_, sample_, sample_ + static_cast<std::uint32_t>(passes)};
   }
   // A rest of less than a quarter launch is not worth one of its own.
@@ -29,7 +35,7 @@ void LaunchPlan::complete(const Range& range, double seconds) {
   }
   rate_ = range.paths() / std::max(seconds, 1e-6);
   const double wanted = std::min(rate_ * target_seconds_, 4.0 * range.paths());
-  budget_ = static_cast<std::uint64_t>(std::max(wanted, 1.0));
+  budget_ = static_cast<std::uint64_t>(std::clamp(wanted, 1.0, static_cast<double>(most_paths_)));
 }
 
 }  // namespace stokes

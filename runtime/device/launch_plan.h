@@ -14,8 +14,10 @@ class LaunchPlan {
     std::uint64_t paths() const { return std::uint64_t(pixel_end - pixel_begin) * (sample_end - sample_begin); }
   };
 
-  /// `first_paths` is the size of the first launch, made before any speed is known; later ones grow at most fourfold at a time.
-  LaunchPlan(std::uint32_t pixels, std::uint32_t sample_begin, std::uint32_t sample_end, std::uint64_t first_paths, double target_seconds);
+  /// `first_paths` is the size of the first launch, made before any speed is known; later ones grow at most fourfold at a time, and
+  /// to `most_paths` at most (a pass that is begun may exceed it by a quarter).
+  LaunchPlan(std::uint32_t pixels, std::uint32_t sample_begin, std::uint32_t sample_end, std::uint64_t first_paths, std::uint64_t most_paths,
+             double target_seconds);
 
   bool done() const { return sample_ == end_ || pixels_ == 0; }
   /// The next launch; not to be called when done.
@@ -34,7 +36,8 @@ class LaunchPlan {
  private:
   std::uint32_t pixels_, sample_, end_;
   std::uint32_t pixel_ = 0;  // first pixel of pass sample_ that is not done
-  std::uint64_t budget_;     // paths of the next launch
+  std::uint64_t most_paths_;
+  std::uint64_t budget_;  // paths of the next launch
   double target_seconds_;
   double rate_ = 0;  // paths per second, of the last launch
 };

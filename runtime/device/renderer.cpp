@@ -34,7 +34,10 @@ cl::Device restrict_threads(const cl::Device& device, int threads, std::vector<s
   if (threads <= 0 || static_cast<cl_uint>(threads) >= units) return device;
   const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads, CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
   const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY, threads, 0};
+  const auto offered = device.getInfo<CL_DEVICE_PARTITION_PROPERTIES>();
   for (const cl_device_partition_property* way : {by_counts, equally}) {
+    // Only ways that the device offers: Rusticl ends the process when asked for another.
+    if (std::find(offered.begin(), offered.end(), way[0]) == offered.end()) continue;
     try {
       std::vector<cl::Device> parts;
       cl::Device(device).createSubDevices(way, &parts);
@@ -50,12 +53,16 @@ cl::Device restrict_threads(const cl::Device& device, int threads, std::vector<s
 // The launch geometry, fixed for a renderer's life: PoCL compiles the kernel again for another one.
 struct Geometry {
   std::uint32_t work_items, local_size;
+  std::uint64_t most_paths_per_item;
 };
 
 Geometry choose_geometry(const cl::Device& device, const DeviceInfo& info) {
+  constexpr std::uint64_t kAny = 1u << 30;
   const cl_uint units = std::max<cl_uint>(1, device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
-  if (info.type != "cpu") return {std::min<cl_uint>(units * 2048u, 1u << 20), 64};
-  return {std::clamp<cl_uint>(units * 32u, 64u, 4096u), 1};
+  if (info.type != "cpu") return {std::min<cl_uint>(units * 2048u, 1u << 20), 64, kAny};
+  // Mesa's llvmpipe silently leaves every loop once a work-item has done 65,535 iterations in all, so each gets very few paths.
+  if (info.platform_name == "rusticl") return {4096, 1, 1};
+  return {std::clamp<cl_uint>(units * 32u, 64u, 4096u), 1, kAny};
 }
 
 }  // namespace
@@ -202,7 +209,8 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
     const Clock::time_point start = Clock::now();
     const auto pixels = static_cast<std::uint32_t>(film.width) * static_cast<std::uint32_t>(film.height);
     const std::uint64_t first_paths = std::uint64_t(state.geometry.work_items) * state.lanes;
-    LaunchPlan plan(pixels, begin, end, first_paths, kLaunchSeconds);
+    const std::uint64_t most_paths = state.geometry.work_items * state.geometry.most_paths_per_item;
+    LaunchPlan plan(pixels, begin, end, first_paths, most_paths, kLaunchSeconds);
     RenderProgress report;
     report.samples_total = std::uint64_t(pixels) * (end - begin);
     state.prepare_film(film);

@@ -158,14 +158,15 @@ struct Rehearsal {
   double longest = 0;
 };
 
-Rehearsal rehearse(std::uint32_t pixels, std::uint32_t begin, std::uint32_t end, double paths_per_second) {
+Rehearsal rehearse(std::uint32_t pixels, std::uint32_t begin, std::uint32_t end, double paths_per_second, std::uint64_t most_paths = 1u << 30) {
   Rehearsal result;
   std::vector<std::uint32_t> next(pixels, begin);
-  LaunchPlan plan(pixels, begin, end, 512, 0.05);
+  LaunchPlan plan(pixels, begin, end, 512, most_paths, 0.05);
   while (!plan.done()) {
     const LaunchPlan::Range range = plan.next();
     EXPECT_LT(range.pixel_begin, range.pixel_end);
     EXPECT_LT(range.sample_begin, range.sample_end);
+    EXPECT_LE(range.paths(), most_paths + most_paths / 4);
     for (std::uint32_t p = range.pixel_begin; p < range.pixel_end; ++p) {
       EXPECT_EQ(next[p], range.sample_begin);
       next[p] = range.sample_end;
@@ -183,6 +184,10 @@ Rehearsal rehearse(std::uint32_t pixels, std::uint32_t begin, std::uint32_t end,
 TEST(LaunchPlan, CoversEverySampleOnceAtAnySpeed) {
   for (const std::uint32_t pixels : {1u, 7u, 511u, 512u, 513u, 20000u})
     for (const double speed : {1e3, 1e5, 1e9}) rehearse(pixels, 3, 20, speed);
+}
+
+TEST(LaunchPlan, KeepsBelowTheMostPaths) {
+  for (const std::uint32_t pixels : {1u, 40u, 1000u}) rehearse(pixels, 3, 20, 1e6, 100);
 }
 
 TEST(LaunchPlan, LaunchesTakeAboutTheTargetTime) {

@@ -69,8 +69,8 @@ inline std::string stand_in_kernel(int spin = 0) {
       uint x = launch->seed * 747796405u + p * 2891336453u + s * 277803737u + 1u;
       x ^= x >> 16; x *= 2246822519u; x ^= x >> 13;
       uint y = x;
-      for (uint i = 0; i < spin; i++) y = y * 1664525u + 1013904223u;
-      if (spin && y == 12345u) words[11] += 1;
+      for (uint i = 0; i < spin; i++) { y ^= y << 13; y ^= y >> 17; y ^= y << 5; }
+      if (spin && y == 0u && x != 0u) words[11] += 1;  // never: a xorshift has no way to zero
       const ulong square = (ulong)x * x, before = (ulong)words[3];
       words[0] += x;
       words[3] = (long)(before + square);

@@ -143,21 +143,29 @@ TEST_F(DeviceTest, ProgressCountsUpAndAStopLeavesWholePasses) {
 }
 
 TEST_F(DeviceTest, SlowPassesAreDroppedWhole) {
-  // A pass takes well over the time that a stop may, so it must be given up and the film be that of the last copy.
-  test::write_kernel_dir(kernels_, 1000000);
+  if (test_device().platform_name == "rusticl") GTEST_SKIP() << "llvmpipe leaves loops after 65,535 iterations";
+  // On a few cores a pass takes longer than a stop may, so the one under way must be given up and the film be that of the last copy.
+  test::write_kernel_dir(kernels_, 300000);
   Renderer renderer(test::empty_scene(), test_device(), options_);
   const int width = 64, height = 40;
+  const std::uint64_t pixels = std::uint64_t(width) * height;
   Film film = film_of(width, height);
   double asked = 0;
+  std::uint64_t done = 0;
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const int end = renderer.render_samples(film, 1, 0, 1000, [&](const RenderProgress& report) {
+  const int end = renderer.render_samples(film, 1, 0, 10000, [&](const RenderProgress& report) {
     asked = seconds();
-    return report.samples_done < std::uint64_t(width) * height * 3 / 2 && report.seconds < 20;
+    done = report.samples_done;
+    const std::uint64_t into_pass = done % pixels;
+    const bool early_in_a_pass = into_pass > pixels / 8 && into_pass < pixels / 2;
+    return !(report.seconds > 2.5 && early_in_a_pass) && report.seconds < 8;
   });
   EXPECT_LT(seconds() - asked, 0.5);
+  EXPECT_GT(end, 0);
   EXPECT_EQ(film.words, expected_film(width, height, 0, 1, 0, end).words);
   RecordProperty("passes", end);
+  RecordProperty("samples dropped", std::to_string(static_cast<long>(done) - end * static_cast<long>(pixels)));
 }
 
 TEST_F(DeviceTest, ThreadsCanBeLimited) {
@@ -171,6 +179,7 @@ TEST_F(DeviceTest, ThreadsCanBeLimited) {
 }
 
 TEST_F(DeviceTest, ABuildLogNamesTheTrueFileAndLine) {
+  if (test_device().platform_name == "Oclgrind") GTEST_SKIP() << "its log does not follow #line";
   kernels_.write("broken.cl", "// one\n// two\nint broken(void) { return nonesuch; }\n");
   kernels_.write("render.cl", "#include \"layout.h\"\n#include \"broken.cl\"\n" + test::stand_in_kernel());
   try {
@@ -208,7 +217,8 @@ TEST_F(DeviceTest, TheSecondBuildComesFromTheCacheAndADamagedOneIsRebuilt) {
   std::filesystem::resize_file(cached_files()[0], std::filesystem::file_size(cached_files()[0]) / 2);
   EXPECT_FALSE(build_and_run());
   EXPECT_TRUE(build_and_run());
-  // Sound on disk, but no program: the driver refuses it and the source is built.
+  // Sound on disk, but no program: the driver refuses it and the source is built (but Rusticl ends the process).
+  if (info.platform_name == "rusticl") return;
   const BuiltProgram built = build_program(context, device, info, source, true);
   write_cached(cache_folder(), built.cache_key, "no program");
   EXPECT_FALSE(build_and_run());
