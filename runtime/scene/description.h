@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/vec.h"
+#include "mesh/mesh.h"
 #include "scene/error.h"
 #include "spectral/spectrum.h"
 
@@ -109,14 +110,6 @@ struct MediumDescription {
 using MediumPtr = std::shared_ptr<const MediumDescription>;
 
 // ---- Surfaces ---------------------------------------------------------------------------------------------------
-/// Triangles in local space. `normals` and `uvs` are empty or parallel to `positions`. Masks: one value per vertex.
-struct MeshData {
-  std::vector<Vec3d> positions, normals;
-  std::vector<std::array<double, 2>> uvs;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::pair<std::string, std::vector<float>>> masks;
-};
-
 enum class SurfaceKind { Quad, Sphere, Triangle, Mesh };
 
 /// A leaf of the surface tree: groups are flattened, their transforms multiplied in; a mesh with several `usemtl` is one
@@ -167,6 +160,12 @@ struct BackgroundDescription {
   std::string pointer;
 };
 
+/// Equal bins of wavelength that the image holds beside its RGB.
+struct SpectralBinsDescription {
+  double begin = 0, end = 0;  ///< nm
+  int count = 0;
+};
+
 /// A whole scene file.
 struct SceneDescription {
   SourceMap source;
@@ -174,6 +173,7 @@ struct SceneDescription {
   CameraDescription camera;
   IntegratorDescription integrator;
   BackgroundDescription background;
+  std::optional<SpectralBinsDescription> spectral_bins;
   int samples = 16;
   std::uint32_t seed = 0;
   LengthUnit scene_unit = LengthUnit::None;

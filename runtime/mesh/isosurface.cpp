@@ -1,0 +1,157 @@
+// Marching cubes with a case table that is derived, not typed: the loops of each of the 256 corner patterns are traced over the
+// cube's faces. (Lorensen & Cline 1987; the consistent treatment of ambiguous faces as in Bloomenthal 1994.)
+#include "mesh/isosurface.h"
+
+#include <map>
+#include <unordered_map>
+
+namespace stokes {
+namespace {
+
+// Corner c stands at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge e joins kEdge[e][0] and kEdge[e][1], the first with the smaller coordinate.
+constexpr int kEdge[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+// The corners of each face, counter-clockwise seen from outside the cube.
+constexpr int kFace[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+int edge_between(int a, int b) {
+  for (int e = 0; e < 12; e++)
+    if ((kEdge[e][0] == a && kEdge[e][1] == b) || (kEdge[e][0] == b && kEdge[e][1] == a)) return e;
+  return -1;
+}
+
+bool share_a_face(int e, int f) {
+  for (const auto& face : kFace) {
+    auto on = [&](int c) { return c == face[0] || c == face[1] || c == face[2] || c == face[3]; };
+    if (on(kEdge[e][0]) && on(kEdge[e][1]) && on(kEdge[f][0]) && on(kEdge[f][1])) return true;
+  }
+  return false;
+}
+
+struct Polygon {
+  std::vector<int> edges;  // cube edges whose crossings are its corners, counter-clockwise from outside
+  int pivot = -1;          // fan from here, or -1: fan from the centroid
+};
+
+// Going round a face, the surface's segment joins the edge where we leave the inside and the edge where we last entered it; so an
+// inside corner always keeps its own segment on an ambiguous face. Followed from where we enter, the loops turn counter-clockwise
+// seen from outside.
+std::vector<Polygon> trace_loops(unsigned inside) {
+  int next[12];
+  std::fill(next, next + 12, -1);
+  for (const auto& face : kFace)
+    for (int s = 0; s < 4; s++) {
+      const int a = face[s], b = face[(s + 1) % 4];
+      if (!((inside >> a) & 1) || ((inside >> b) & 1)) continue;  // a inside, b outside: leaving
+      int t = s;                                                   // walk back to where we entered
+      while ((inside >> face[(t + 3) % 4]) & 1) t = (t + 3) % 4;
+      next[edge_between(face[(t + 3) % 4], face[t])] = edge_between(a, b);
+    }
+  std::vector<Polygon> polygons;
+  bool used[12] = {};
+  for (int e = 0; e < 12; e++) {
+    if (next[e] < 0 || used[e]) continue;
+    Polygon p;
+    for (int f = e; !used[f]; f = next[f]) used[f] = true, p.edges.push_back(f);
+    // A diagonal inside a cube's face could meet the neighbour's; choose a fan that has none.
+    const int n = static_cast<int>(p.edges.size());
+    for (int c = 0; c < n && p.pivot < 0; c++) {
+      bool clean = true;
+      for (int k = 2; k + 1 < n && clean; k++) clean = !share_a_face(p.edges[c], p.edges[(c + k) % n]);
+      if (clean) p.pivot = c;
+    }
+    polygons.push_back(p);
+  }
+  return polygons;
+}
+
+const std::vector<std::vector<Polygon>>& case_table() {
+  static const std::vector<std::vector<Polygon>> table = [] {
+    std::vector<std::vector<Polygon>> t(256);
+    for (unsigned c = 0; c < 256; c++) t[c] = trace_loops(c);
+    return t;
+  }();
+  return table;
+}
+
+// Where the field crosses the level on the segment a-b, by a few steps of regula falsi from the linear guess.
+Vec3d crossing(Vec3d a, Vec3d b, double fa, double fb, double level, const Field* field) {
+  double t0 = 0, t1 = 1, t = (level - fa) / (fb - fa);
+  if (field)
+    for (int i = 0; i < 4; i++) {
+      const double f = (*field)(a + (b - a) * t);
+      if ((f < level) == (fa < level)) t0 = t, fa = f;
+      else t1 = t, fb = f;
+      if (fa == fb) break;
+      t = t0 + (t1 - t0) * std::clamp((level - fa) / (fb - fa), 0.05, 0.95);
+    }
+  return a + (b - a) * std::clamp(t, 1e-3, 1 - 1e-3);  // never onto a corner: no triangle may collapse
+}
+
+Vec3d gradient(const Field& f, Vec3d p, double h) {
+  return {f({p.x + h, p.y, p.z}) - f({p.x - h, p.y, p.z}), f({p.x, p.y + h, p.z}) - f({p.x, p.y - h, p.z}),
+          f({p.x, p.y, p.z + h}) - f({p.x, p.y, p.z - h})};
+}
+
+}  // namespace
+
+MeshData isosurface(const Grid& g, double level, const Field* refine) {
+  MeshData mesh;
+  std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_edge;
+  auto corner = [](int i, int j, int k, int c) { return std::array<int, 3>{i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)}; };
+  auto vertex = [&](int i, int j, int k, int e) {
+    const auto a = corner(i, j, k, kEdge[e][0]), b = corner(i, j, k, kEdge[e][1]);
+    const std::uint64_t key = g.index(a[0], a[1], a[2]) * 3 + static_cast<std::uint64_t>(e / 4);
+    const auto [it, fresh] = vertex_of_edge.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (fresh)
+      mesh.positions.push_back(crossing(g.point(a[0], a[1], a[2]), g.point(b[0], b[1], b[2]), g.at(a[0], a[1], a[2]),
+                                        g.at(b[0], b[1], b[2]), level, refine));
+    return it->second;
+  };
+  for (int k = 0; k + 1 < g.nz; k++)
+    for (int j = 0; j + 1 < g.ny; j++)
+      for (int i = 0; i + 1 < g.nx; i++) {
+        unsigned inside = 0;
+        for (int c = 0; c < 8; c++) {
+          const auto q = corner(i, j, k, c);
+          inside |= static_cast<unsigned>(g.at(q[0], q[1], q[2]) < level) << c;
+        }
+        if (inside == 0 || inside == 255) continue;
+        for (const Polygon& p : case_table()[inside]) {
+          const std::size_t n = p.edges.size();
+          std::vector<std::uint32_t> v(n);
+          for (std::size_t s = 0; s < n; s++) v[s] = vertex(i, j, k, p.edges[s]);
+          if (p.pivot >= 0) {
+            for (std::size_t s = 1; s + 1 < n; s++) mesh.triangles.push_back({v[p.pivot], v[(p.pivot + s) % n], v[(p.pivot + s + 1) % n]});
+          } else {
+            Vec3d middle;
+            for (std::uint32_t index : v) middle += mesh.positions[index] / static_cast<double>(n);
+            const auto center = static_cast<std::uint32_t>(mesh.positions.size());
+            mesh.positions.push_back(middle);
+            for (std::size_t s = 0; s < n; s++) mesh.triangles.push_back({center, v[s], v[(s + 1) % n]});
+          }
+        }
+      }
+  if (refine)
+    for (const Vec3d& p : mesh.positions) {
+      const Vec3d n = gradient(*refine, p, 0.25 * g.step);
+      mesh.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
+    }
+  return mesh;
+}
+
+MeshTopology mesh_topology(const MeshData& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;  // count per direction
+  for (const auto& t : mesh.triangles)
+    for (int s = 0; s < 3; s++) {
+      const std::uint32_t a = t[s], b = t[(s + 1) % 3];
+      edges[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1]++;
+    }
+  MeshTopology topology;
+  for (const auto& [edge, count] : edges) {
+    if (count[0] + count[1] == 1) topology.boundary_edges++;
+    else if (count[0] != 1 || count[1] != 1) topology.nonmanifold_edges++;
+  }
+  return topology;
+}
+
+}  // namespace stokes

@@ -1,0 +1,129 @@
+// Offsets of meshes: along vertex normals, and as a level of the exact distance.
+#include "mesh/offset.h"
+
+#include <stdexcept>
+
+#include "mesh/isosurface.h"
+#include "mesh/mesh_distance.h"
+
+namespace stokes {
+namespace {
+
+Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
+  return cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
+}
+
+double mean_edge(const MeshData& m) {
+  double sum = 0;
+  for (const auto& t : m.triangles) sum += length(m.positions[t[1]] - m.positions[t[0]]);
+  return sum / static_cast<double>(std::max<std::size_t>(1, m.triangles.size()));
+}
+
+// The offset with the mesh's own connectivity: each vertex moves to where the planes of its faces, shifted by d, meet in the least
+// squares sense, so that the facets stay parallel to their parents.
+MeshData shift_faces(const MeshData& mesh, double d) {
+  struct Normal {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    Vec3d b;
+  };
+  std::vector<Normal> sums(mesh.positions.size());
+  for (const auto& t : mesh.triangles) {
+    const Vec3d area = face_normal(mesh, t);
+    const double w = length(area);
+    if (w <= 0) continue;
+    const Vec3d n = area / w;
+    for (std::uint32_t v : t) {
+      Normal& s = sums[v];
+      s.xx += w * n.x * n.x, s.xy += w * n.x * n.y, s.xz += w * n.x * n.z;
+      s.yy += w * n.y * n.y, s.yz += w * n.y * n.z, s.zz += w * n.z * n.z;
+      s.b += n * (w * d);
+    }
+  }
+  MeshData out = mesh;
+  for (std::size_t i = 0; i < sums.size(); i++) {
+    Normal s = sums[i];
+    const double e = 1e-3 * (s.xx + s.yy + s.zz);  // a flat neighbourhood leaves the tangent open: stay put
+    if (e <= 0) continue;
+    s.xx += e, s.yy += e, s.zz += e;
+    const Vec3d c0{s.xx, s.xy, s.xz}, c1{s.xy, s.yy, s.yz}, c2{s.xz, s.yz, s.zz};
+    const double det = dot(c0, cross(c1, c2));
+    out.positions[i] += Vec3d{dot(s.b, cross(c1, c2)), dot(c0, cross(s.b, c2)), dot(c0, cross(c1, s.b))} / det;
+  }
+  return out;
+}
+
+// The share of triangles whose middle is more than 5 % off the distance d; 1 when a triangle faces the wrong way.
+double share_off(const MeshData& m, const MeshDistance& distance, double d) {
+  std::size_t off = 0;
+  for (const auto& t : m.triangles) {
+    const Vec3d middle = (m.positions[t[0]] + m.positions[t[1]] + m.positions[t[2]]) / 3;
+    Vec3d nearest;
+    const double s = distance(middle, &nearest);
+    if (dot(face_normal(m, t), (middle - nearest) * (s < 0 ? -1.0 : 1.0)) <= 0) return 1;
+    off += std::abs(s / d - 1) > 0.05;
+  }
+  return static_cast<double>(off) / static_cast<double>(m.triangles.size());
+}
+
+// The level d of the distance by marching cubes, its vertices moved onto the exact distance along the line from the nearest point.
+MeshData distance_level(const MeshDistance& distance, Vec3d lo, Vec3d hi, double d, double step) {
+  const Vec3d margin = Vec3d{1, 1, 1} * (std::max(d, 0.0) + 2.5 * step);
+  const Field field = [&](Vec3d p) { return distance(p); };
+  MeshData out = isosurface(sample_field(field, lo - margin, hi + margin, step, d, 1.01), d, &field);
+  for (Vec3d& p : out.positions) {
+    Vec3d nearest;
+    double s = distance(p, &nearest);
+    for (int i = 0; i < 3 && std::abs(s - d) > 1e-9 * length(hi - lo) && s != 0; i++) {
+      p += (p - nearest) * ((d - s) / s);
+      s = distance(p, &nearest);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipped) {
+  std::vector<Vec3d> normals = mesh.normals;
+  if (normals.empty()) {
+    normals.resize(mesh.positions.size());
+    for (const auto& t : mesh.triangles)
+      for (std::uint32_t v : t) normals[v] += face_normal(mesh, t);
+  }
+  MeshData out = mesh;
+  for (std::size_t i = 0; i < out.positions.size(); i++)
+    if (length(normals[i]) > 0) out.positions[i] += normalize(normals[i]) * d;
+  if (flipped) {
+    *flipped = 0;
+    for (const auto& t : mesh.triangles) *flipped += dot(face_normal(mesh, t), face_normal(out, t)) < 0;
+  }
+  return out;
+}
+
+MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
+  const MeshTopology topology = mesh_topology(mesh);
+  if (!topology.watertight())
+    throw std::runtime_error("the mesh is not closed (" + std::to_string(topology.boundary_edges) + " open and " +
+                             std::to_string(topology.nonmanifold_edges) + " overloaded edges), so it has no inside to offset into");
+  const MeshDistance distance(mesh);
+  Vec3d lo = mesh.positions[0], hi = lo;
+  for (const Vec3d& p : mesh.positions) lo = min(lo, p), hi = max(hi, p);
+  // As fine as half the distance asks and the mesh itself is, never so fine that the grid outgrows memory.
+  if (step <= 0) step = std::max(std::min(0.8 * mean_edge(mesh), std::abs(d)), length(hi - lo) / 500);
+  MeshData shifted = shift_faces(mesh, d);
+  const double off = share_off(shifted, distance, d);
+  MeshData out;
+  if (off > 0) out = distance_level(distance, lo, hi, d, step);
+  if (off < 1 && (out.triangles.empty() || off <= share_off(out, distance, d))) out = std::move(shifted);
+  if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
+  out.normals.clear();
+  for (const Vec3d& p : out.positions) {
+    Vec3d nearest;
+    const double s = distance(p, &nearest);
+    const Vec3d n = (p - nearest) * (s < 0 ? -1.0 : 1.0);
+    out.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
+  }
+  return out;
+}
+
+}  // namespace stokes
