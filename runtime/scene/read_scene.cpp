@@ -1,0 +1,58 @@
+// The top level of a scene.
+#include "scene/read_scene.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "scene/material_reader.h"
+#include "scene/medium_reader.h"
+#include "scene/settings_reader.h"
+#include "scene/spectrum_reader.h"
+#include "scene/surface_reader.h"
+
+namespace stokes {
+
+SceneDescription read_scene_text(const std::string& text, const std::string& file_name, const std::string& directory,
+                                 const SceneOverrides& overrides) {
+  JsonSource source = parse_json(text, file_name);
+  for (const auto& [pointer, value] : overrides) apply_override(source, pointer, value);
+
+  SceneDescription scene;
+  scene.source = source.map;
+  scene.directory = directory;
+  ReadContext context{scene};
+  const JsonNode root(source);
+  const JsonObject o(root, "a scene", {"camera", "sampler", "integrator", "background", "accelerator", "spectra", "media", "materials",
+                                       "surfaces", "film", "scene unit", "$schema"});
+  o.string("$schema", "");
+
+  // What is named comes first, in the order in which names may refer to each other.
+  if (const auto unit = o.find("scene unit")) scene.scene_unit = read_length_unit(*unit);
+  if (const auto spectra = o.find("spectra")) read_named_spectra(context, *spectra);
+  if (const auto media = o.find("media")) read_named_media(context, *media);
+  if (const auto materials = o.find("materials")) read_named_materials(context, *materials);
+
+  scene.camera = read_camera(context, o.require("camera"));
+  if (const auto sampler = o.find("sampler")) read_sampler(context, *sampler);
+  if (const auto integrator = o.find("integrator")) scene.integrator = read_integrator(*integrator);
+  if (const auto background = o.find("background")) scene.background = read_background(context, *background);
+  if (const auto film = o.find("film")) read_film(context, *film);
+  if (const auto surfaces = o.find("surfaces")) read_surfaces(context, *surfaces);
+  return scene;
+}
+
+SceneDescription read_scene(const std::string& path, const SceneOverrides& overrides) {
+  const auto unreadable = [&](const std::string& why) { throw SceneError(SourceMap{path, {}}, "", "the scene cannot be read: " + why); };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) unreadable("it is a folder");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) unreadable(std::strerror(errno));
+  std::stringstream text;
+  text << file.rdbuf();
+  return read_scene_text(text.str(), path, std::filesystem::path(path).parent_path().string(), overrides);
+}
+
+}  // namespace stokes
