@@ -1,0 +1,88 @@
+// Names and parameters of the procedural meshes.
+#include "mesh/generate.h"
+
+#include <stdexcept>
+
+#include "mesh/hand.h"
+#include "mesh/head.h"
+
+namespace stokes {
+namespace {
+
+MeshData cut(const Field& field, Vec3d lo, Vec3d hi, double resolution) {
+  const Vec3d margin = Vec3d{1, 1, 1} * (2 * resolution);
+  return isosurface(sample_field(field, lo - margin, hi + margin, resolution), 0, &field);
+}
+
+[[noreturn]] void unknown_parameter(const std::string& mesh, const std::string& name) {
+  throw std::invalid_argument("the " + mesh + " has no parameter \"" + name + "\"");
+}
+
+MeshData generate_head(const GeneratorOptions& options) {
+  HeadShape shape;
+  if (!options.pose.empty()) throw std::invalid_argument("the head has no poses; use the parameter \"pitch\"");
+  for (const auto& [name, value] : options.parameters) {
+    if (name == "pitch" && std::abs(value) <= 30) shape.pitch = value;
+    else if (name == "cut" && value >= -200 && value <= -125) shape.cut_y = value;
+    else if (name == "asymmetry" && std::abs(value) <= 3) shape.asymmetry = value;
+    else if (name == "pitch" || name == "cut" || name == "asymmetry") throw std::invalid_argument("the head's parameter \"" + name + "\" is out of range");
+    else unknown_parameter("head", name);
+  }
+  Vec3d lo, hi;
+  head_bounds(shape, lo, hi);
+  MeshData mesh = cut(head_field(shape), lo, hi, options.resolution);
+  for (const auto& [name, mask] : head_masks(shape)) {
+    std::vector<float> values;
+    for (const Vec3d& p : mesh.positions) values.push_back(static_cast<float>(mask(p)));
+    mesh.masks.emplace_back(name, std::move(values));
+  }
+  return mesh;
+}
+
+double* hand_parameter(HandPose& pose, const std::string& name) {
+  if (name == "arch") return &pose.arch;
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) return nullptr;
+  const std::string digit = name.substr(0, dot), joint = name.substr(dot + 1);
+  if (digit == "thumb") {
+    if (joint == "radial") return &pose.thumb.radial;
+    if (joint == "palmar") return &pose.thumb.palmar;
+    if (joint == "pronation") return &pose.thumb.pronation;
+    if (joint == "mcp") return &pose.thumb.mcp;
+    return joint == "ip" ? &pose.thumb.ip : nullptr;
+  }
+  HandPose::Finger* f = digit == "index" ? &pose.index : digit == "middle" ? &pose.middle : digit == "ring" ? &pose.ring : digit == "little" ? &pose.little : nullptr;
+  if (!f) return nullptr;
+  if (joint == "mcp") return &f->mcp;
+  if (joint == "pip") return &f->pip;
+  if (joint == "dip") return &f->dip;
+  if (joint == "spread") return &f->spread;
+  return joint == "roll" ? &f->roll : nullptr;
+}
+
+MeshData generate_hand(const GeneratorOptions& options) {
+  const std::string name = options.pose.empty() ? "open" : options.pose;
+  const HandPose* known = find_hand_pose(name);
+  if (!known) throw std::invalid_argument("the hand has no pose \"" + name + "\"; it has open, cupping and pointing");
+  HandPose pose = *known;
+  for (const auto& [parameter, value] : options.parameters) {
+    double* target = hand_parameter(pose, parameter);
+    if (!target) unknown_parameter("hand", parameter);
+    if (std::abs(value) > 120) throw std::invalid_argument("the hand's parameter \"" + parameter + "\" is out of range");
+    *target = value;
+  }
+  Vec3d lo, hi;
+  hand_bounds(pose, lo, hi);
+  return cut(hand_field(pose), lo, hi, options.resolution);
+}
+
+}  // namespace
+
+MeshData generate_mesh(const std::string& name, const GeneratorOptions& options) {
+  if (!(options.resolution >= 0.3 && options.resolution <= 10)) throw std::invalid_argument("the resolution must lie in [0.3, 10] mm");
+  if (name == "head") return generate_head(options);
+  if (name == "hand") return generate_hand(options);
+  throw std::invalid_argument("there is no generator \"" + name + "\"; there are head and hand");
+}
+
+}  // namespace stokes

@@ -1,0 +1,22 @@
+// Procedural meshes by name, as a scene asks for them.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace stokes {
+
+struct GeneratorOptions {
+  double resolution = 1.5;  ///< mm: spacing of the grid that the surface is cut from; 0.3 to 10
+  std::string pose;         ///< hand: "open" (default), "cupping", "pointing"
+  /// Head: "pitch" (degrees), "cut" (mm), "asymmetry" (mm). Hand: joint angles in degrees as "index.mcp", "thumb.radial", and "arch" (mm).
+  std::vector<std::pair<std::string, double>> parameters;
+};
+
+/// The mesh called `name` ("head" or "hand"), in millimetres: closed, with normals from its field, and masks. Throws std::invalid_argument
+/// for a name, pose, parameter or value that it does not know.
+MeshData generate_mesh(const std::string& name, const GeneratorOptions& options);
+
+}  // namespace stokes

@@ -1,0 +1,111 @@
+// Meshes made and moved: isosurfaces are closed, offsets keep their distance, the figures have sensible sizes.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "mesh/field.h"
+#include "mesh/generate.h"
+#include "mesh/isosurface.h"
+#include "mesh/mesh_distance.h"
+#include "mesh/offset.h"
+
+namespace stokes {
+namespace {
+
+double volume(const MeshData& m) {
+  double v = 0;
+  for (const auto& t : m.triangles) v += dot(m.positions[t[0]], cross(m.positions[t[1]], m.positions[t[2]])) / 6;
+  return v;
+}
+
+MeshData ball(double radius, double step) {
+  const Field field = [radius](Vec3d p) { return length(p) - radius; };
+  const Vec3d r = Vec3d{1, 1, 1} * (radius + 2 * step);
+  return isosurface(sample_field(field, -r, r, step), 0, &field);
+}
+
+TEST(Isosurface, BallIsClosedOutwardAndRound) {
+  const MeshData m = ball(1, 0.05);
+  EXPECT_TRUE(mesh_topology(m).watertight());
+  EXPECT_NEAR(volume(m), 4 * std::numbers::pi / 3, 0.01);  // positive: counter-clockwise from outside
+  for (const Vec3d& p : m.positions) EXPECT_NEAR(length(p), 1, 1e-3);
+  for (std::size_t i = 0; i < m.positions.size(); i++) EXPECT_GT(dot(m.normals[i], normalize(m.positions[i])), 0.999);
+}
+
+TEST(Isosurface, EveryCaseOfTheTableIsClosed) {
+  // White noise inside a box visits all 256 corner patterns with all their neighbours.
+  const Field noise = [](Vec3d p) {
+    auto cell = [](double x) { return static_cast<unsigned>(std::floor(x * 20 + 0.5) + 1000); };
+    unsigned h = cell(p.x) * 73856093u ^ cell(p.y) * 19349663u ^ cell(p.z) * 83492791u;
+    h = (h ^ (h >> 13)) * 2654435761u;
+    const double border = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 0.9;
+    return border > 0 ? border : (h >> 8) / 16777216.0 - 0.5;
+  };
+  const MeshData m = isosurface(sample_field(noise, {-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}, 0.05, 0, 1e9), 0);
+  ASSERT_GT(m.triangles.size(), 10000u);
+  const MeshTopology t = mesh_topology(m);
+  EXPECT_EQ(t.boundary_edges, 0u);
+  EXPECT_EQ(t.nonmanifold_edges, 0u);
+}
+
+TEST(MeshTopology, NoticesAMissingFace) {
+  MeshData m = ball(1, 0.2);
+  m.triangles.pop_back();
+  EXPECT_EQ(mesh_topology(m).boundary_edges, 3u);
+}
+
+TEST(MeshDistance, SignedDistanceOfABall) {
+  const MeshData m = ball(1, 0.05);
+  const MeshDistance distance(m);
+  for (double r : {0.2, 0.9, 1.5, 3.0}) EXPECT_NEAR(distance(Vec3d{0.6, 0.0, 0.8} * r), r - 1, 2e-3);
+}
+
+TEST(Offset, DistanceFieldKeepsTheDistanceAndFlipsNothing) {
+  const MeshData m = ball(1, 0.05);
+  for (double d : {-0.3, -0.02, 0.2}) {
+    const MeshData moved = offset_by_distance_field(m, d);
+    EXPECT_TRUE(mesh_topology(moved).watertight());
+    for (const Vec3d& p : moved.positions) EXPECT_NEAR(length(p), 1 + d, 0.05 * std::abs(d));
+    for (const auto& t : moved.triangles) {
+      const Vec3d n = cross(moved.positions[t[1]] - moved.positions[t[0]], moved.positions[t[2]] - moved.positions[t[0]]);
+      EXPECT_GT(dot(n, moved.positions[t[0]]), 0);
+    }
+  }
+}
+
+TEST(Offset, AlongNormalsCountsFlippedFaces) {
+  std::size_t flipped = 0;
+  offset_along_normals(ball(1, 0.1), -0.5, &flipped);
+  EXPECT_EQ(flipped, 0u);
+  offset_along_normals(ball(1, 0.1), -1.5, &flipped);  // turned inside out: every face points the other way... through the centre
+  EXPECT_GT(flipped, 0u);
+}
+
+TEST(Offset, OpenMeshIsRefused) {
+  MeshData m = ball(1, 0.2);
+  m.triangles.pop_back();
+  EXPECT_THROW(offset_by_distance_field(m, -0.1), std::runtime_error);
+}
+
+TEST(Generators, HeadAndHandAreClosedAndOfHumanSize) {
+  const MeshData head = generate_mesh("head", {4, "", {}});
+  EXPECT_TRUE(mesh_topology(head).watertight());
+  EXPECT_NEAR(volume(head) / 1e6, 4.25, 0.15);  // litres
+  ASSERT_EQ(head.masks.size(), 3u);
+  EXPECT_EQ(head.masks[0].second.size(), head.positions.size());
+  for (const char* pose : {"open", "cupping", "pointing"}) {
+    const MeshData hand = generate_mesh("hand", {3, pose, {}});
+    EXPECT_TRUE(mesh_topology(hand).watertight()) << pose;
+    EXPECT_NEAR(volume(hand) / 1e3, 345, 20) << pose;  // cm^3
+  }
+}
+
+TEST(Generators, BadRequestsAreRefused) {
+  EXPECT_THROW(generate_mesh("foot", {}), std::invalid_argument);
+  EXPECT_THROW(generate_mesh("head", {0.01, "", {}}), std::invalid_argument);
+  EXPECT_THROW(generate_mesh("head", {4, "", {{"nose", 3}}}), std::invalid_argument);
+  EXPECT_THROW(generate_mesh("hand", {4, "fist", {}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stokes
