@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <optional>
 
 #include "device/calls.h"
@@ -174,6 +175,12 @@ cl::Device find_device(const DeviceInfo& info) {
     if (info.device >= 0 && info.device < static_cast<int>(devices.size())) return devices[info.device];
   }
   throw DeviceError("device " + describe_device(info) + " is no longer there");
+}
+
+void limit_cpu_threads(int threads) {
+  if (threads <= 0) return;
+  const std::string count = std::to_string(threads);
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "CL_CONFIG_CPU_TBB_NUM_WORKERS"}) setenv(name, count.c_str(), 0);
 }
 
 int default_lanes(const DeviceInfo& device) {

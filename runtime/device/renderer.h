@@ -31,6 +31,10 @@ DeviceInfo choose_among(const std::vector<DeviceInfo>& devices, const std::strin
 /// What a scene's arrays take on a device, without the film.
 std::uint64_t scene_bytes(const CompiledScene& scene);
 
+/// Limits CPU runtimes that read their thread count from the environment (PoCL, Intel). Only of use before the first call of any other
+/// function here; DeviceOptions::threads works later too, but Intel's runtime heeds only this.
+void limit_cpu_threads(int threads);
+
 struct RenderCounters {
   std::uint64_t rays = 0, shadow_rays = 0, scatterings = 0, paths = 0, invalid = 0;
 };
