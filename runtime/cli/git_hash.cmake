@@ -1,0 +1,18 @@
+# Writes OUTPUT with the commit of SOURCE, touching it only when the commit changed.
+set(hash "unknown")
+execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE
+                RESULT_VARIABLE failed ERROR_QUIET)
+if(failed EQUAL 0)
+  set(hash ${found})
+  execute_process(COMMAND git -C ${SOURCE} diff --quiet HEAD -- runtime kernels RESULT_VARIABLE changed ERROR_QUIET)
+  if(NOT changed EQUAL 0)
+    string(APPEND hash "+")
+  endif()
+endif()
+set(text "#define STOKES_GIT_HASH \"${hash}\"\n")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT "${text}" STREQUAL "${old}")
+  file(WRITE ${OUTPUT} "${text}")
+endif()

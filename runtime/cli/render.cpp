@@ -1,0 +1,265 @@
+// `stokes render`: a scene to a picture. Knows options and their order of work; the work itself is elsewhere.
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/render_job.h"
+#include "cli/scene_options.h"
+#include "cli/version.h"
+#include "image/error.h"
+#include "image/replace_file.h"
+
+namespace stokes {
+namespace {
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::string scene;
+  SceneOptions scene_options;
+  OutputOptions output;
+  std::string crop, max_time, aov, spectral, samples, checkpoint;
+  std::string progress = "auto";
+  bool resume = false, restart = false, json = false, quiet = false, stats = false;
+};
+
+/// What the text of the options means, checked before any work is done.
+struct Plan {
+  AovChoice aovs;
+  SpectralBins bins;
+  double max_seconds = 0, checkpoint_seconds = 0;
+  ProgressMode progress = ProgressMode::Auto;
+  std::string checkpoint_path;
+};
+
+struct Timing {
+  double load = 0, build = 0;
+};
+
+void say(const RenderOptions& o, const std::string& line) {
+  if (!o.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+Plan make_plan(RenderOptions& o) {
+  Plan plan;
+  if (o.output.path.empty()) o.output.path = fs::path(o.scene).stem().string() + ".exr";
+  output_format(o.output.path);
+  if (!o.aov.empty()) plan.aovs = parse_aovs(o.aov);
+  if (!o.spectral.empty()) plan.bins = parse_spectral(o.spectral);
+  if (!o.max_time.empty()) plan.max_seconds = parse_duration("--max-time", o.max_time);
+  if (!o.checkpoint.empty()) plan.checkpoint_seconds = parse_duration("--checkpoint", o.checkpoint);
+  if (!o.scene_options.size.empty()) parse_size(o.scene_options.size);
+  if (!o.scene_options.integrator.empty()) parse_integrator(o.scene_options.integrator);
+  for (const std::string& setting : o.scene_options.settings) parse_setting(setting);
+  if (o.progress == "plain") plan.progress = ProgressMode::Plain;
+  if (o.progress == "json") plan.progress = ProgressMode::Json;
+  if (o.progress == "none" || o.quiet) plan.progress = ProgressMode::None;
+  o.output.variance = plan.aovs.variance;
+  o.output.part = !o.samples.empty();
+  plan.checkpoint_path = o.output.path + ".checkpoint";
+  return plan;
+}
+
+/// An empty record for what is to be rendered; its samples_total and range follow --spp and --samples.
+FilmRecord empty_record(const RenderOptions& o, const LoadedScene& scene) {
+  FilmRecord record;
+  const IntegratorDescription& integrator = scene.description.integrator;
+  record.identity = {program_version(), scene.hash, fs::path(scene.path).filename().string(), scene.device.name(),
+                     integrator.name.empty() ? "path tracer mis" : integrator.name, scene.compiled.seed};
+  record.notes = {{"stokes:driver", scene.device.driver()},
+                  {"stokes:mode", scene.compiled.features.rgb ? "rgb" : "spectral"},
+                  {"stokes:wavelengths_per_path", std::to_string(scene.compiled.wavelengths_per_path)}};
+  if (o.output.variance) record.notes.emplace_back(kVarianceNote, "yes");
+  record.samples_total = scene.compiled.samples;
+  if (!o.samples.empty()) {
+    const auto [begin, end] = parse_samples(o.samples);
+    if (end > record.samples_total)
+      throw UsageError("--samples: " + o.samples + " goes beyond the render's " + std::to_string(record.samples_total) +
+                       " samples per pixel; say --spp " + std::to_string(end) + " for every part");
+    record.sample_begin = record.sample_end = begin;
+  }
+  PixelWindow window = scene.whole();
+  if (!o.crop.empty()) window = parse_crop(o.crop, window.x1, window.y1);
+  record.film = scene.empty_film(window);
+  return record;
+}
+
+/// Continues from the checkpoint where --resume asks for it. Foreign and damaged ones are refused.
+void adopt_checkpoint(const RenderOptions& o, const Plan& plan, int sample_end, FilmRecord& record) {
+  const std::string& path = plan.checkpoint_path;
+  if (!fs::exists(path)) {
+    if (o.resume) say(o, "there is no " + path + " yet: starting with the first sample");
+    return;
+  }
+  if (o.restart) return;
+  if (!o.resume) {
+    if (plan.checkpoint_seconds > 0)
+      throw UsageError("--checkpoint: " + path + " exists already; --resume continues it, --restart begins anew");
+    say(o, "note: " + path + " is left alone; --resume would continue it");
+    return;
+  }
+  FilmRecord found = read_film(path);
+  std::string reason = film_mismatch(found, record);
+  if (reason.empty() && found.identity.device != record.identity.device)
+    reason = "it was rendered on " + found.identity.device + ", not on " + record.identity.device;
+  if (reason.empty() && found.sample_begin != record.sample_begin)
+    reason = "it begins with sample " + std::to_string(found.sample_begin) + ", not " + std::to_string(record.sample_begin);
+  if (reason.empty() && found.sample_end > sample_end)
+    reason = "it already holds the samples up to " + std::to_string(found.sample_end) + ", more than the " + std::to_string(sample_end) + " asked for";
+  if (!reason.empty()) throw InputError(path + ": cannot be resumed: " + reason);
+  found.samples_total = record.samples_total;
+  found.notes = record.notes;
+  record = std::move(found);
+  say(o, "resuming " + path + " after " + std::to_string(record.sample_end - record.sample_begin) + " samples per pixel");
+}
+
+nlohmann::ordered_json summary(const FilmRecord& record, const std::vector<std::string>& files, const Timing& timing, bool complete) {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  std::string driver;
+  for (const auto& [name, value] : record.notes)
+    if (name == "stokes:driver") driver = value;
+  nlohmann::ordered_json j;
+  j["output"] = files.empty() ? "" : files.front();
+  j["files"] = files;
+  j["complete"] = complete;
+  j["render_seconds"] = record.render_seconds;
+  j["build_seconds"] = timing.build;
+  j["load_seconds"] = timing.load;
+  j["samples"] = record.sample_end - record.sample_begin;
+  j["width"] = record.film.width;
+  j["height"] = record.film.height;
+  j["rays"] = record.rays;
+  j["shadow_rays"] = record.shadow_rays;
+  j["scatterings"] = record.scatterings;
+  j["device"] = record.identity.device;
+  j["driver"] = driver;
+  j["integrator"] = record.identity.integrator;
+  j["seed"] = record.identity.seed;
+  j["scene_hash"] = record.identity.scene_hash;
+  j["version"] = record.identity.version;
+  j["peak_memory_bytes"] = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  j["invalid_samples"] = film_totals(record.film).invalid;
+  return j;
+}
+
+void print_statistics(const FilmRecord& r, const Timing& timing) {
+  const double seconds = std::max(1e-9, r.render_seconds);
+  const double samples = static_cast<double>(film_totals(r.film).samples);
+  std::fprintf(stderr, "load      %10.3f s\nkernels   %10.3f s\nrender    %10.3f s\n", timing.load, timing.build, r.render_seconds);
+  std::fprintf(stderr, "samples   %14.0f  %10.3f M/s\n", samples, samples / seconds * 1e-6);
+  const auto line = [&](const char* name, std::uint64_t count) {
+    if (r.paths > 0)
+      std::fprintf(stderr, "%s%14llu  %10.3f M/s  %8.2f per path\n", name, static_cast<unsigned long long>(count),
+                   static_cast<double>(count) / seconds * 1e-6, static_cast<double>(count) / static_cast<double>(r.paths));
+  };
+  line("rays      ", r.rays);
+  line("shadows   ", r.shadow_rays);
+  line("scatters  ", r.scatterings);
+}
+
+std::unique_ptr<Backend> prepare(const RenderOptions& o, const LoadedScene& scene, Timing& timing) {
+  if (!scene.device.reference) say(o, "preparing kernels for " + scene.device.name() + " ...");
+  auto backend = make_backend(scene.compiled, scene.device, {o.scene_options.threads, o.scene_options.kernel_dir});
+  timing.load = scene.load_seconds;
+  timing.build = backend->build_seconds();
+  char text[64];
+  std::snprintf(text, sizeof text, "kernels ready in %.2f s", timing.build);
+  if (!scene.device.reference) say(o, text);
+  for (const std::string& warning : backend->warnings()) say(o, "warning: " + warning);
+  return backend;
+}
+
+/// Everything after the last sample: files, checkpoint, messages, exit code.
+int conclude(const RenderOptions& o, const Plan& plan, const RenderJob& job, RenderEnd end, const Timing& timing, bool checkpoint_is_ours) {
+  const FilmRecord& record = job.record;
+  const int samples = record.sample_end - record.sample_begin;
+  if (end == RenderEnd::Interrupted) {
+    if (samples == 0) {
+      std::fprintf(stderr, "interrupted before the first sample pass was complete: nothing to save\n");
+      return kExitInterrupted;
+    }
+    write_film(plan.checkpoint_path, record);
+    std::fprintf(stderr, "interrupted after %d of %d samples per pixel; saved %s, continue with --resume\n", samples,
+                 job.sample_end - record.sample_begin, plan.checkpoint_path.c_str());
+  }
+  const std::vector<std::string> files = write_outputs(record, o.output);
+  if (end != RenderEnd::Interrupted && checkpoint_is_ours) fs::remove(plan.checkpoint_path);
+  if (end == RenderEnd::TimeUp) say(o, "time is up after " + std::to_string(samples) + " samples per pixel");
+  if (o.stats) print_statistics(record, timing);
+  if (o.json)
+    std::cout << summary(record, files, timing, end != RenderEnd::Interrupted).dump(2) << "\n";
+  else
+    for (const std::string& file : files) std::cout << file << "\n";
+  if (end == RenderEnd::Interrupted) return kExitInterrupted;
+  const std::string invalid = describe_invalid(record, *job.backend);
+  if (invalid.empty()) return kExitDone;
+  std::fprintf(stderr, "error: %s\n", invalid.c_str());
+  return kExitInternal;
+}
+
+int run_render(RenderOptions o) {
+  const Plan plan = make_plan(o);
+  require_writable(o.output.path);
+  if (o.output.png) require_writable(png_beside(o.output.path));
+  catch_interrupts();
+
+  const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
+  RenderJob job;
+  job.record = empty_record(o, scene);
+  job.sample_end = o.samples.empty() ? job.record.samples_total : parse_samples(o.samples).second;
+  adopt_checkpoint(o, plan, job.sample_end, job.record);
+  bool checkpoint_is_ours = job.record.sample_end > job.record.sample_begin;
+
+  Timing timing;
+  const std::unique_ptr<Backend> backend = prepare(o, scene, timing);
+  const std::uint64_t pixels = static_cast<std::uint64_t>(job.record.film.width) * static_cast<std::uint64_t>(job.record.film.height);
+  const int all = job.sample_end - job.record.sample_begin, already = job.record.sample_end - job.record.sample_begin;
+  ProgressReport progress(plan.progress, pixels * static_cast<std::uint64_t>(all), pixels * static_cast<std::uint64_t>(already), all);
+  job.backend = backend.get();
+  job.progress = &progress;
+  job.max_seconds = plan.max_seconds;
+  job.checkpoint_seconds = plan.checkpoint_seconds;
+  job.save_checkpoint = [&](const FilmRecord& record) {
+    write_film(plan.checkpoint_path, record);
+    checkpoint_is_ours = true;
+  };
+  const RenderEnd end = run_job(job);
+  progress.finish();
+  return conclude(o, plan, job, end, timing, checkpoint_is_ours);
+}
+
+}  // namespace
+
+Command add_render(CLI::App& root) {
+  auto o = std::make_shared<RenderOptions>();
+  CLI::App* app = root.add_subcommand("render", "Renders a scene to an EXR");
+  app->add_option("scene", o->scene, "SCENE.json")->required();
+  app->add_option("-o,--output", o->output.path, "OUT.exr, .png or .film [the scene's name with .exr, in this folder]");
+  o->scene_options.add_to(*app);
+  app->add_option("--crop", o->crop, "x0,x1,y0,y1: fractions where all are at most 1, else pixels [whole]");
+  app->add_option("--max-time", o->max_time, "Stop after this time (60s, 5m, 2h) with the samples done by then [none]");
+  app->add_option("--aov", o->aov, "albedo,normal,depth,variance,fluorescence or all: further channels [none]");
+  app->add_option("--spectral", o->spectral, "a:b:n: n equal bins from a to b nm, beside RGB [none]");
+  app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
+  app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
+  app->add_option("--samples", o->samples, "a:b: only these samples of every pixel, as a part for `stokes merge` [all]");
+  app->add_option("--checkpoint", o->checkpoint, "Save OUT.checkpoint this often (60s) [only when interrupted]");
+  CLI::Option* resume = app->add_flag("--resume", o->resume, "Continue from OUT.checkpoint where there is one");
+  app->add_flag("--restart", o->restart, "Begin anew, whatever checkpoint there is")->excludes(resume);
+  app->add_option("--progress", o->progress, "auto, plain, json or none")->capture_default_str()->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+  app->add_flag("--json", o->json, "Print a summary as one JSON object");
+  app->add_flag("-q,--quiet", o->quiet, "No progress and no messages but errors");
+  app->add_flag("--stats", o->stats, "Print counters and rates at the end");
+  return {app, [o] { return run_render(*o); }};
+}
+
+}  // namespace stokes

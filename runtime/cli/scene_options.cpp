@@ -1,0 +1,119 @@
+// The options that several commands share: which scene, with which changes, on which device.
+#include "cli/scene_options.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "cli/commands.h"
+#include "cli/scene_hash.h"
+#include "layout.h"
+#include "scene/read_scene.h"
+
+namespace stokes {
+namespace {
+
+/// Bytes that the host can still give, or 0 when that is not known.
+std::uint64_t available_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  for (std::uint64_t kibibytes = 0; file >> key >> kibibytes; std::getline(file, unit))
+    if (key == "MemAvailable:") return kibibytes * 1024;
+  return 0;
+}
+
+std::string gibibytes(std::uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f GiB", static_cast<double>(bytes) / (1024.0 * 1024 * 1024));
+  return text;
+}
+
+CompileOptions compile_options(const DeviceChoice& device, const AovChoice& aovs, const SpectralBins& bins) {
+  CompileOptions options;
+  options.bvh_width = device.bvh_width();
+  options.film_channels = aovs.channels;
+  options.spectral_bins = bins.count;
+  options.spectral_begin = bins.begin;
+  options.spectral_end = bins.end;
+  return options;
+}
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& command) {
+  command.add_option("--device", device, "reference, auto, gpu, cpu, P:D, or part of a platform's or device's name")
+      ->envname("STOKES_DEVICE")
+      ->capture_default_str();
+  command.add_option("--spp", samples, "Samples per pixel [the scene's, else 16]")->check(CLI::Range(1, 1 << 30));
+  command.add_option("--seed", seed, "Seed of the random numbers [the scene's, else 0]");
+  command.add_option("--size", size, "WIDTHxHEIGHT of the full image [the scene's]");
+  command.add_option("--integrator", integrator, "mis, nee, mats, normals, ao, or a name of the scene format [the scene's, else mis]");
+  command.add_option("--mode", mode, "spectral or rgb [the scene's, else spectral]")->check(CLI::IsMember({"spectral", "rgb"}));
+  command.add_option("--wavelengths-per-path", wavelengths_per_path, "1, 4 or 8 [the scene's, else 4]")->check(CLI::IsMember({1, 4, 8}));
+  command.add_option("--set", settings, "/json/pointer=VALUE: changes a value of the scene file; may be given again")->take_all();
+  command.add_option("--threads", threads, "CPU threads; 0 is all")->capture_default_str()->check(CLI::Range(0, 4096));
+  command.add_option("--kernel-dir", kernel_dir, "Read the kernels from this folder instead of the built-in ones")->check(CLI::ExistingDirectory);
+}
+
+Film LoadedScene::empty_film(const PixelWindow& w) const {
+  const layout::Scene& h = compiled.header;
+  const std::uint64_t words = static_cast<std::uint64_t>(w.x1 - w.x0) * static_cast<std::uint64_t>(w.y1 - w.y0) * h.film_stride;
+  require_host_memory(2 * 8 * words, "the film");  // once as the sum, once as a device's part
+  return make_film(static_cast<int>(h.camera.width), static_cast<int>(h.camera.height), w.x0, w.y0, w.x1 - w.x0, w.y1 - w.y0, h.film_channels,
+                   static_cast<int>(h.spectral_bins), static_cast<double>(h.spectral_begin), static_cast<double>(h.spectral_end),
+                   static_cast<double>(h.film_quantum), static_cast<double>(h.depth_quantum));
+}
+
+PixelWindow LoadedScene::whole() const {
+  return {0, static_cast<int>(compiled.header.camera.width), 0, static_cast<int>(compiled.header.camera.height)};
+}
+
+SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options) {
+  SceneOverrides overrides;
+  for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
+  SceneDescription scene = read_scene(path, overrides);
+  if (options.samples) scene.samples = *options.samples;
+  if (options.seed) scene.seed = *options.seed;
+  if (!options.size.empty()) std::tie(scene.camera.width, scene.camera.height_pixels) = parse_size(options.size);
+  if (!options.integrator.empty()) {
+    scene.integrator.kind = parse_integrator(options.integrator);
+    scene.integrator.name = options.integrator;
+  }
+  if (!options.mode.empty()) scene.integrator.mode = options.mode == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
+  if (options.wavelengths_per_path) scene.integrator.wavelengths_per_path = *options.wavelengths_per_path;
+  return scene;
+}
+
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  LoadedScene loaded;
+  loaded.path = path;
+  loaded.description = read_with_overrides(path, options);
+  if (bins.count > 0 && loaded.description.integrator.mode == ColorMode::Rgb) throw UsageError("--spectral: there are no wavelengths in rgb mode");
+  loaded.device = find_backend(options.device);
+  loaded.compiled = compile_scene(loaded.description, compile_options(loaded.device, aovs, bins));
+  // The first choice could not know the scene's size.
+  if (!loaded.device.reference) {
+    const layout::Scene& h = loaded.compiled.header;
+    const std::uint64_t film = std::uint64_t{h.camera.width} * h.camera.height * h.film_stride * 8;
+    const DeviceChoice again = find_backend(options.device, scene_bytes(loaded.compiled) + film);
+    if (again.bvh_width() != loaded.device.bvh_width()) loaded.compiled = compile_scene(loaded.description, compile_options(again, aovs, bins));
+    loaded.device = again;
+  }
+  loaded.hash = scene_hash(loaded.compiled);
+  loaded.load_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (!quiet) {
+    for (const std::string& warning : loaded.description.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+    for (const std::string& warning : loaded.compiled.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+  }
+  return loaded;
+}
+
+void require_host_memory(std::uint64_t bytes, const std::string& what) {
+  const std::uint64_t have = available_memory();
+  if (have > 0 && bytes > have) throw MemoryError("out of memory: " + what + " needs " + gibibytes(bytes) + ", " + gibibytes(have) + " are free");
+}
+
+}  // namespace stokes

@@ -1,0 +1,55 @@
+// The options that several commands share: which scene, with which changes, on which device.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/backend.h"
+#include "compiled/compiled_scene.h"
+#include "scene/description.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stokes {
+
+/// What overrides the scene file, as given; empty or unset: the file's.
+struct SceneOptions {
+  std::string device = "auto";
+  std::optional<int> samples;
+  std::optional<std::uint32_t> seed;
+  std::string size;
+  std::string integrator;
+  std::string mode;
+  std::optional<int> wavelengths_per_path;
+  std::vector<std::string> settings;
+  int threads = 0;
+  std::string kernel_dir;
+  void add_to(CLI::App& command);
+};
+
+/// A scene ready to render, with what it was made from.
+struct LoadedScene {
+  std::string path;
+  SceneDescription description;
+  CompiledScene compiled;
+  std::string hash;
+  DeviceChoice device;
+  double load_seconds = 0;
+  Film empty_film(const PixelWindow& window) const;
+  PixelWindow whole() const;
+};
+
+/// Reads, overrides and compiles a scene for the device that the options name. Warnings go to stderr unless `quiet`.
+/// Throws SceneError, UsageError, DeviceError.
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet);
+
+/// Reads and overrides alone.
+SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options);
+
+/// Throws MemoryError with need and have when a film of this size would not fit the host's memory.
+void require_host_memory(std::uint64_t bytes, const std::string& what);
+
+}  // namespace stokes
