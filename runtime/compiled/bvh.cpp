@@ -3,8 +3,9 @@
 #include "compiled/bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <limits>
+#include <memory>
 
 #include "compiled/bvh_binary.h"
 
@@ -17,17 +18,23 @@ constexpr std::uint32_t kMaxBlocks = 2; // of one leaf (the layout allows 8)
 constexpr float kFarAway = 1e30f;       // where the boxes of empty slots are
 
 // cost[i - 1]: the least expected cost of the subtree when it may use up to i slots of the node above it.
-using Costs = std::array<float, 7>;
+struct Costs {
+  float cost[7];
+};
 
 class Collapse {
  public:
   Collapse(const BinaryTree& tree, const std::vector<layout::Vec3>& positions, const std::vector<layout::Triangle>& triangles, int width)
-      : tree_(tree), positions_(positions), triangles_(triangles), width_(width), costs_(tree.nodes.size()) {}
+      : tree_(tree), positions_(positions), triangles_(triangles), width_(width), costs_(std::make_unique_for_overwrite<Costs[]>(tree.places)) {}
 
   Bvh run() {
     solve(0);
+    // Blocks are about two thirds full, nodes about seven children wide.
+    const std::size_t blocks = triangles_.size() * 3 / (2 * std::size_t(width_)) + 1;
+    bvh_.leaves.reserve(blocks * 10 * std::size_t(width_));
+    bvh_.nodes.reserve(blocks * 8 * std::size_t(width_) / std::size_t(width_ - 1));
     const float root_area = tree_.nodes[0].box.area();
-    bvh_.sah = root_area > 0 ? costs_[0][0] / root_area : 1;
+    bvh_.sah = root_area > 0 ? costs_[0].cost[0] / root_area : 1;
     write_root();
     return std::move(bvh_);
   }
@@ -40,10 +47,10 @@ class Collapse {
 
   // The least cost of spreading a binary inner node over `slots` slots, and how many the left child gets.
   float distribute(std::uint32_t i, int slots, int* left_slots) const {
-    const Costs &left = costs_[i + 1], &right = costs_[node(i).right];
+    const float *left = costs_[i + 1].cost, *right = costs_[node(i).right].cost;
     float best = std::numeric_limits<float>::infinity();
     for (int k = 1; k < slots; k++) {
-      const float cost = left[std::size_t(k - 1)] + right[std::size_t(slots - k - 1)];
+      const float cost = left[k - 1] + right[slots - k - 1];
       if (cost < best) best = cost, *left_slots = k;
     }
     return best;
@@ -55,9 +62,9 @@ class Collapse {
   }
 
   void solve(std::uint32_t i) {
-    Costs& cost = costs_[i];
+    float* cost = costs_[i].cost;
     if (!node(i).right) {
-      cost.fill(leaf_cost(i));
+      std::fill_n(cost, 7, leaf_cost(i));
       return;
     }
     solve(i + 1);
@@ -66,14 +73,14 @@ class Collapse {
     if (may_be_leaf(i)) cost[0] = std::min(cost[0], leaf_cost(i));
     int unused;
     for (int slots = 2; slots < width_; slots++)
-      cost[std::size_t(slots - 1)] = std::min(cost[std::size_t(slots - 2)], distribute(i, slots, &unused));
+      cost[slots - 1] = std::min(cost[slots - 2], distribute(i, slots, &unused));
   }
 
   bool is_leaf(std::uint32_t i) const { return !node(i).right || (may_be_leaf(i) && leaf_cost(i) <= inner_cost(i)); }
 
   // The binary nodes that fill up to `slots` slots in place of node i, in the way that `solve` found cheapest.
   void expand(std::uint32_t i, int slots, std::vector<std::uint32_t>& children) const {
-    while (slots > 1 && node(i).right && costs_[i][std::size_t(slots - 2)] <= costs_[i][std::size_t(slots - 1)]) slots--;
+    while (slots > 1 && node(i).right && costs_[i].cost[slots - 2] <= costs_[i].cost[slots - 1]) slots--;
     if (slots == 1 || !node(i).right) {
       children.push_back(i);
       return;
@@ -146,7 +153,7 @@ class Collapse {
   const std::vector<layout::Vec3>& positions_;
   const std::vector<layout::Triangle>& triangles_;
   int width_;
-  std::vector<Costs> costs_;
+  std::unique_ptr<Costs[]> costs_;
   Bvh bvh_;
 };
 

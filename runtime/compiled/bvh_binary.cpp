@@ -9,8 +9,8 @@
 namespace stokes::compiled {
 namespace {
 
-constexpr int kBins = 32;
-constexpr std::uint32_t kSweepBelow = 24;       // primitives: below this every split is tried
+constexpr int kMaxBins = 32;
+constexpr std::uint32_t kSweepBelow = 12;       // primitives: below this every split is tried
 constexpr std::uint32_t kTaskAbove = 1u << 15;  // primitives: above this a subtree may become a task
 constexpr int kMaxDepth = 60;                   // below it only halves, so that traversal stacks stay bounded
 
@@ -29,25 +29,27 @@ struct Split {
 // Maps centroids to bins along each axis.
 struct BinMap {
   Float4 low, scale;
-  explicit BinMap(const Box4& centroids) : low(centroids.low) {
+  int bins;
+  // Few primitives need few bins: clearing and sweeping them costs as much as filling them.
+  BinMap(const Box4& centroids, std::ptrdiff_t count) : low(centroids.low), bins(int(std::min<std::ptrdiff_t>(kMaxBins, 8 + count / 8))) {
     const Float4 extent = centroids.high - centroids.low;
-    for (int a = 0; a < 4; a++) scale[a] = extent[a] > 0 ? kBins * 0.99999f / extent[a] : 0.0f;
+    for (int a = 0; a < 4; a++) scale[a] = extent[a] > 0 ? float(bins) * 0.99999f / extent[a] : 0.0f;
   }
-  int bin(Float4 c, int axis) const { return std::clamp(int((c[axis] - low[axis]) * scale[axis]), 0, kBins - 1); }
+  int bin(Float4 c, int axis) const { return std::clamp(int((c[axis] - low[axis]) * scale[axis]), 0, bins - 1); }
 };
 
-Split best_bins(const std::array<Box4, kBins>& boxes, const std::array<std::uint32_t, kBins>& counts, int axis, Split best) {
-  std::array<float, kBins> right_cost;
+Split best_bins(const Box4* boxes, const std::uint32_t* counts, int bins, int axis, Split best) {
+  std::array<float, kMaxBins> right_cost;
   Box4 box;
   std::uint32_t count = 0;
-  for (int b = kBins - 1; b > 0; b--) {
+  for (int b = bins - 1; b > 0; b--) {
     box.add(boxes[b]);
     count += counts[b];
     right_cost[b] = count ? box.area() * float(count) : -1.0f;
   }
   box = Box4{};
   count = 0;
-  for (int b = 1; b < kBins; b++) {
+  for (int b = 1; b < bins; b++) {
     box.add(boxes[b - 1]);
     count += counts[b - 1];
     if (!count || right_cost[b] < 0) continue;
@@ -58,19 +60,19 @@ Split best_bins(const std::array<Box4, kBins>& boxes, const std::array<std::uint
 }
 
 Split find_binned(Iterator first, Iterator last, const BinMap& map) {
-  std::array<std::array<Box4, kBins>, 3> boxes;
-  std::array<std::array<std::uint32_t, kBins>, 3> counts{};
+  Box4 boxes[3][kMaxBins];
+  std::uint32_t counts[3][kMaxBins] = {};
   for (Iterator p = first; p != last; ++p) {
     const Float4 c = (centroid(*p) - map.low) * map.scale;
-    for (std::size_t a = 0; a < 3; a++) {
-      const auto b = std::size_t(std::clamp(int(c[a]), 0, kBins - 1));
+    for (int a = 0; a < 3; a++) {
+      const int b = std::clamp(int(c[a]), 0, map.bins - 1);
       boxes[a][b].add(p->box);
       counts[a][b]++;
     }
   }
   Split best;
   for (int a = 0; a < 3; a++)
-    if (map.scale[a] > 0) best = best_bins(boxes[std::size_t(a)], counts[std::size_t(a)], a, best);
+    if (map.scale[a] > 0) best = best_bins(boxes[a], counts[a], map.bins, a, best);
   return best;
 }
 
@@ -148,7 +150,7 @@ class Builder {
       if (s.axis != 2) sort_along(begin, end, s.axis);  // the sweep leaves them sorted along z
       return begin + s.left;
     }
-    const BinMap map(centroids);
+    const BinMap map(centroids, end - begin);
     const Split s = find_binned(begin, end, map);
     if (s.axis < 0) return split_median(begin, end, centroids);
     return std::partition(begin, end, [&](const BuildPrimitive& p) { return map.bin(centroid(p), s.axis) < s.bin; });
@@ -164,7 +166,8 @@ BinaryTree build_binary_tree(std::vector<BuildPrimitive> primitives, std::uint32
   BinaryTree tree;
   tree.primitives = std::move(primitives);
   const auto count = std::uint32_t(tree.primitives.size());
-  tree.nodes.resize(2 * std::size_t(count));
+  tree.places = 2 * std::size_t(count);
+  tree.nodes = std::make_unique_for_overwrite<BinaryNode[]>(tree.places);
   // More tasks than cores, because the heuristic's halves are uneven.
   const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
   Builder(tree, leaf_size).build(0, 0, count, 0, cores > 1 ? 4 * cores : 1);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace stokes::compiled {
@@ -24,7 +25,7 @@ struct Box4 {
   }
 };
 
-/// A primitive while the tree is built; box.low's fourth word is unused.
+/// A primitive while the tree is built.
 struct BuildPrimitive {
   Box4 box;
   std::uint32_t id;
@@ -37,7 +38,8 @@ struct BinaryNode {
 };
 
 struct BinaryTree {
-  std::vector<BinaryNode> nodes;  ///< with gaps: a subtree over n primitives owns 2 n - 1 places
+  std::unique_ptr<BinaryNode[]> nodes;  ///< with gaps, never written: a subtree over n primitives owns 2 n - 1 places
+  std::size_t places = 0;               ///< of `nodes`
   std::vector<BuildPrimitive> primitives;
 };
 

@@ -132,6 +132,7 @@ void complete_excitations(Compilation& c) {
     out.spectrum = c.spectra.add(density);
     out.cdf = std::uint32_t(c.out.cdfs.size() / STOKES_CDF_STRIDE);
     out.integral = float(d.integral);
+    out.strength = float(c.spectra.integral(pending.absorption));
     c.out.cdfs.insert(c.out.cdfs.end(), d.cdf.begin(), d.cdf.end());
   }
   c.excitations.clear();
