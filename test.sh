@@ -1,0 +1,10 @@
+#!/bin/sh
+# Installs what is missing, builds everything, and runs the tests: ./test.sh [ctest arguments, such as -L unit].
+set -eu
+root=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+. "$root/.ci/setup.sh"
+
+install_packages "$root"
+build "$root" all
+cd "$root/build"
+exec ctest --output-on-failure --parallel "$(nproc)" "$@"
