@@ -256,7 +256,7 @@ typedef struct {
   uint spectrum;
   uint cdf;
   float integral;
-  uint padding;
+  float strength;  // integral of the absorption alone that it was made from
 } Distribution;
 LAYOUT_CHECK(Distribution, 16);
 

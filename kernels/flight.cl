@@ -1,0 +1,129 @@
+// One flight of a path: through its medium until it scatters there, reaches a surface or leaves the scene. Knows nothing of what happens then.
+#ifndef STOKES_FLIGHT_CL
+#define STOKES_FLIGHT_CL
+#include "fluorescence.cl"
+#include "path.cl"
+
+// The empty ball pays where surfaces are dear to find and no dye needs to know how far they are.
+#ifndef STOKES_EMPTY_BALL
+#define STOKES_EMPTY_BALL (SCENE_HAS_MEDIA && SCENE_HAS_TRIANGLES && !SCENE_HAS_FLUORESCENT_MEDIA)
+#endif
+// In mean free paths: how far to look for surfaces, and below which radius looking was in vain.
+#define BALL_REACH 16.0f
+#define BALL_TOO_SMALL 1.0f
+#define BALL_PAUSE 3
+// Only media much denser than the scene is large.
+#define BALL_DENSITY 0.1f
+
+typedef struct {
+  Real length;
+  Hit hit;
+  Mask at_surface, in_medium, escaped;
+} Flight;
+
+/// The lanes whose whole flight lies inside their ball without surfaces: these need not be traced.
+///
+/// A ball is asked for where a flight leaves the last one, and for a few flights not again where it turned out too small. Skipping changes no
+/// event, because clearance is a lower bound.
+STOKES_FN Mask inside_ball(const SceneView* view, PathState* path, Real length) {
+  const Real3 end = madd3(path->origin, path->direction, length);
+  const Real mean_free_path = path->medium.mean_free_path;
+  const Mask dense = path->alive & (mean_free_path > real(0.0f)) & (mean_free_path < real(BALL_DENSITY * view->scene->scene_radius));
+  const Real3 from = sub3(path->origin, path->ball_center), to = sub3(end, path->ball_center);
+  const Mask inside = dense & (dot3(from, from) < path->ball_radius2) & (dot3(to, to) < path->ball_radius2);
+  const Mask outside = dense & !inside;
+  const Mask asking = outside & (path->ball_wait <= integer(0));
+  path->ball_wait = outside ? path->ball_wait - 1 : path->ball_wait;
+  if (!any(asking)) return inside;
+  const Real radius = clearance(view, path->origin, mean_free_path * BALL_REACH, asking);
+  path->ball_center = select3(asking, path->origin, path->ball_center);
+  path->ball_radius2 = asking ? radius * radius * 0.9999f : path->ball_radius2;
+  path->ball_wait = asking ? (radius < mean_free_path * BALL_TOO_SMALL ? integer(BALL_PAUSE) : integer(0)) : path->ball_wait;
+  return inside | (asking & (length * length < path->ball_radius2));
+}
+
+/// The fluorescent branch of the masked lanes' flights, at media with dyes; `length` is the way to the surface, or STOKES_FAR.
+///
+/// Along the way the dyes give off light by chance: with probability q = w / (1 + w) the path looks for it at a point drawn as a free flight
+/// that ends before the surface, else it flies on as if there were none. w is the light's estimated weight. Returns the lanes that found a
+/// dye; *place receives where.
+STOKES_FN Mask dyes_along(const SceneView* view, PathState* path, Real length, Mask mask, Real* place) {
+  const Int at = (mask ? path->medium.index : integer(0)) * MEDIUM_WORDS;
+  const Int first = gather_int((const __global uint*)view->media, at + 4), count = gather_int((const __global uint*)view->media, at + 5);
+  const Mask dyed = mask & (count > integer(0));
+  Throughput* t = &path->throughput;
+  const Real sigma_t = medium_hero_sigma_t(&path->medium, t);
+  const Mask endless = (length >= real(STOKES_FAR)) & !(sigma_t > real(0.0f));
+  const Mask lanes = dyed & !endless;
+  if (!any(lanes)) return no_lanes();
+  const Real u_branch = path_random(path, lanes), u_dye = path_random(path, lanes), u_place = path_random(path, lanes), u_lambda = path_random(path, lanes);
+  const DyeChoice c = dye_choose(view, t, first, count, u_dye, lanes, 0);
+
+  // int of the transmittance along the way, for the hero.
+  const Real passed = exp_real(-sigma_t * length);
+  const Mask absorbs = sigma_t * length > real(1e-4f);
+  const Real reach = absorbs ? (real(1.0f) - passed) / sigma_t : length;
+  const Spectrum ones = spectrum_constant(real(1.0f));
+  const Real beta = beta_sum(t, &ones);
+  const Real w = beta > real(0.0f) ? c.total / beta * reach : real(0.0f);
+  const Real q = w / (real(1.0f) + w);
+  const Mask found = lanes & (u_branch < q);
+  throughput_scale(t, real(1.0f) / (real(1.0f) - q), lanes & !found);
+  if (!any(found)) return found;
+
+  // The place, and per slot transmittance and density there.
+  const Real x = absorbs ? -log_real(fma(-u_place, real(1.0f) - passed, real(1.0f))) / sigma_t : u_place * length;
+  *place = found ? min_real(x, length) : *place;
+  const Real hero_density = absorbs ? sigma_t * exp_real(-sigma_t * x) / (real(1.0f) - passed) : real(1.0f) / length;
+  FOR_EACH_WAVELENGTH(k) {
+    const Real s = medium_sigma_t(&path->medium, k);
+    const Real left = exp_real(-s * x);
+    const Real density = s * length > real(1e-4f) ? s * left / (real(1.0f) - exp_real(-s * length)) : real(1.0f) / length;
+    t->beta.v[k] = found ? t->beta.v[k] * left / (hero_density * q) : t->beta.v[k];
+    t->density.v[k] = found ? t->density.v[k] * density / hero_density : t->density.v[k];
+  }
+  Throughput excited = *t;
+  dye_excite(view, t, found ? c.dye : integer(0), found ? c.chosen / c.total : real(1.0f), u_lambda, found, &excited);
+  *t = excited;
+  path->fluoresced = path->fluoresced | found;
+  // Coefficients at the new wavelengths; light is given off in all directions alike.
+  medium_load(view, path->medium.index, t, found, &path->medium);
+  return found;
+}
+
+/// Flies all living lanes and charges their throughput for the way.
+STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* counters) {
+  Flight f;
+  f.length = real(STOKES_FAR);
+  Mask tracing = path->alive;
+  if (SCENE_HAS_MEDIA) {
+    const Real u = random_next(&path->rng);
+    f.length = medium_flight(&path->medium, &path->throughput, u);
+    if (STOKES_EMPTY_BALL) tracing = tracing & !inside_ball(view, path, f.length);
+  }
+  Real reach = f.length;
+  Mask dyed = no_lanes();
+  if (SCENE_HAS_FLUORESCENT_MEDIA) {
+    dyed = path->alive & (path->medium.index != integer(0));
+    reach = dyed ? real(STOKES_FAR) : reach;
+  }
+  f.hit.primitive = integer(-1);
+  f.hit.t = f.hit.u = f.hit.v = real(0.0f);
+  if (any(tracing)) f.hit = closest_hit(view, path->origin, path->direction, reach, path->exclude, tracing);
+  count_lanes(counters, COUNTER_RAYS, tracing);
+  f.at_surface = path->alive & (f.hit.primitive >= integer(0));
+  Mask glowing = no_lanes();
+  if (SCENE_HAS_FLUORESCENT_MEDIA) {
+    if (any(dyed)) glowing = dyes_along(view, path, f.at_surface ? f.hit.t : real(STOKES_FAR), dyed, &f.length);
+    f.at_surface = f.at_surface & !glowing & (f.hit.t < f.length);
+  }
+  f.in_medium = SCENE_HAS_MEDIA ? path->alive & !f.at_surface & (glowing | (f.length < real(STOKES_FAR))) : no_lanes();
+  f.escaped = path->alive & !f.at_surface & !f.in_medium;
+  f.length = f.at_surface ? f.hit.t : f.length;
+  if (SCENE_HAS_MEDIA) {
+    medium_travel(&path->medium, &path->throughput, f.length, path->alive & !glowing, f.in_medium & !glowing);
+    count_lanes(counters, COUNTER_SCATTERINGS, f.in_medium);
+  }
+  return f;
+}
+#endif
