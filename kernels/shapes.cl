@@ -67,9 +67,9 @@ STOKES_FN Real3 transform3x4(const __global float* m, Real3 p, float w) {
 }
 
 STOKES_FN Real meet_ellipsoid(const __global Ellipsoid* ellipsoid, Real3 o, Real3 d, Mask on_it) {
-  const Real3 local_d = transform3x4(ellipsoid->to_local, d, 0.0f);
-  const Real inv_length = real(1.0f) / sqrt_real(dot3(local_d, local_d));
-  return meet_centred_sphere(transform3x4(ellipsoid->to_local, o, 1.0f), scale3(local_d, inv_length), real(1.0f), on_it) *
+  const Real3 inner_d = transform3x4(ellipsoid->to_local, d, 0.0f);
+  const Real inv_length = real(1.0f) / sqrt_real(dot3(inner_d, inner_d));
+  return meet_centred_sphere(transform3x4(ellipsoid->to_local, o, 1.0f), scale3(inner_d, inv_length), real(1.0f), on_it) *
          inv_length;
 }
 #endif

@@ -16,10 +16,11 @@
 #define BVH_WIDTH 8
 #endif
 
+// Enough for 85 levels, the deepest tree that the builder makes.
 #if BVH_WIDTH == 8
-#define STOKES_STACK 192
+#define STOKES_STACK 608
 #elif BVH_WIDTH == 4
-#define STOKES_STACK 128
+#define STOKES_STACK 264
 #elif BVH_WIDTH == 2
 #define STOKES_STACK 96
 #else
