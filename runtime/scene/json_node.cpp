@@ -28,10 +28,10 @@ std::string fold(std::string word) {
 
 }  // namespace
 
-std::string show(double x) {
+std::string show(double x, int digits) {
   char text[32];
-  for (const int digits : {6, 9, 17}) {
-    std::snprintf(text, sizeof text, "%.*g", digits, x);
+  for (int d = 6; d <= digits; d++) {
+    std::snprintf(text, sizeof text, "%.*g", d, x);
     if (std::strtod(text, nullptr) == x) break;
   }
   return text;

@@ -24,8 +24,8 @@ inline constexpr Range kUnitInterval{0, 1};
 inline constexpr Range kNotNegative{0};
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 
-/// A number as a message shows it.
-std::string show(double x);
+/// A number as a message shows it: as short as is exact, or to `digits` (6 or more).
+std::string show(double x, int digits = 17);
 /// The candidate nearest to `word` in edit distance, as `; did you mean "x"?`, or nothing when none is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 /// A name of a type with underscores and hyphens as spaces.

@@ -72,7 +72,7 @@ void check_grammar(const std::string& text, const std::string& file_name) {
   const std::size_t at = check.offset > 0 ? check.offset - 1 : 0;
   map.places[""] = position_at(text, at);
   // NaN and Infinity are what other tools write for numbers that are none.
-  for (const char* literal : {"NaN", "Infinity", "-Infinity", "nan", "inf", "-inf"}) {
+  for (const char* literal : {"-Infinity", "Infinity", "-inf", "inf", "-NaN", "NaN", "-nan", "nan"}) {
     const std::size_t length = std::string(literal).size();
     for (std::size_t back = 0; back < length && back <= at; back++)
       if (text.compare(at - back, length, literal) == 0) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "scene/mesh_generator.h"
+#include "mesh/offset.h"
 
 namespace stokes {
 namespace {
@@ -15,35 +15,36 @@ Vec3d face_cross(const RawMesh& mesh, const std::vector<Vec3d>& positions, std::
   return cross(positions[c[1].position] - positions[c[0].position], positions[c[2].position] - positions[c[0].position]);
 }
 
-// World normals at positions: the file's where it has any, else the adjacent faces' by angle.
-std::vector<Vec3d> position_normals(const RawMesh& mesh, const std::vector<Vec3d>& world, const Affine& to_world) {
-  std::vector<Vec3d> given(world.size()), computed(world.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); f++) {
-    const auto& c = mesh.faces[f].corners;
+// The positions alone, in world space, and a normal for each: the average of the file's normals there, else that of the adjacent
+// faces, both by angle. (By area, a cube's corner would lean towards the side that is divided otherwise.)
+MeshData positions_in_world(const RawMesh& mesh, const Affine& to_world) {
+  MeshData world;
+  for (const Vec3d& p : mesh.positions) world.positions.push_back(to_world.point(p));
+  std::vector<Vec3d> given(world.positions.size()), computed(world.positions.size());
+  for (const RawMesh::Face& face : mesh.faces) {
+    std::array<std::uint32_t, 3> t;
+    for (int i = 0; i < 3; i++) t[i] = static_cast<std::uint32_t>(face.corners[i].position);
     // A mirroring transform turns the winding, but not which side is out.
-    Vec3d n = face_cross(mesh, world, f);
-    if (to_world.determinant() < 0) n = -n;
+    const bool mirrored = to_world.determinant() < 0;
+    if (mirrored) std::swap(t[1], t[2]);
+    world.triangles.push_back(t);
     for (int i = 0; i < 3; i++) {
-      const Vec3d e1 = world[c[(i + 1) % 3].position] - world[c[i].position], e2 = world[c[(i + 2) % 3].position] - world[c[i].position];
-      const double angle = std::atan2(length(cross(e1, e2)), dot(e1, e2));
-      computed[c[i].position] += normalize(n) * angle;
-      if (c[i].normal >= 0 && length(mesh.normals[c[i].normal]) > 0)
-        given[c[i].position] += normalize(to_world.normal(mesh.normals[c[i].normal])) * angle;
+      const Vec3d e1 = world.positions[t[(i + 1) % 3]] - world.positions[t[i]], e2 = world.positions[t[(i + 2) % 3]] - world.positions[t[i]];
+      const Vec3d n = cross(e1, e2);
+      const double angle = std::atan2(length(n), dot(e1, e2));
+      if (length(n) > 0) computed[t[i]] += normalize(n) * angle;
+      const int normal = face.corners[mirrored && i > 0 ? 3 - i : i].normal;
+      if (normal >= 0 && length(mesh.normals[normal]) > 0) given[t[i]] += normalize(to_world.normal(mesh.normals[normal])) * angle;
     }
   }
-  for (std::size_t i = 0; i < world.size(); i++) {
+  for (std::size_t i = 0; i < given.size(); i++) {
     const Vec3d n = length(given[i]) > 1e-6 ? given[i] : computed[i];
-    given[i] = length(n) > 0 ? normalize(n) : Vec3d{};
+    world.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{});
   }
-  return given;
+  return world;
 }
 
 }  // namespace
-
-MeshGenerator& mesh_generator() {
-  static MeshGenerator generator = nullptr;
-  return generator;
-}
 
 RawMesh raw_mesh_of(const MeshData& mesh) {
   RawMesh raw;
@@ -72,15 +73,21 @@ std::size_t drop_degenerate_faces(RawMesh& mesh) {
 }
 
 std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_world) {
-  std::vector<Vec3d> before, after;
-  for (const Vec3d& p : mesh.positions) before.push_back(to_world.point(p));
-  const std::vector<Vec3d> normals = position_normals(mesh, before, to_world);
-  for (std::size_t i = 0; i < before.size(); i++) after.push_back(before[i] + normals[i] * distance);
   std::size_t flipped = 0;
-  for (std::size_t f = 0; f < mesh.faces.size(); f++) flipped += dot(face_cross(mesh, before, f), face_cross(mesh, after, f)) <= 0;
+  const MeshData moved = offset_along_normals(positions_in_world(mesh, to_world), distance, &flipped);
   const Affine to_local = to_world.inverse();
-  for (std::size_t i = 0; i < after.size(); i++) mesh.positions[i] = to_local.point(after[i]);
+  for (std::size_t i = 0; i < mesh.positions.size(); i++) mesh.positions[i] = to_local.point(moved.positions[i]);
   return flipped;
+}
+
+RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world) {
+  MeshData moved = offset_by_distance_field(positions_in_world(mesh, to_world), distance);
+  const Affine to_local = to_world.inverse();
+  for (Vec3d& p : moved.positions) p = to_local.point(p);
+  for (Vec3d& n : moved.normals) n = normalize(to_local.normal(n));
+  if (to_world.determinant() < 0)
+    for (auto& triangle : moved.triangles) std::swap(triangle[1], triangle[2]);
+  return raw_mesh_of(moved);
 }
 
 MeshData extract_material(const RawMesh& mesh, int material) {

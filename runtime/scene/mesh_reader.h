@@ -33,8 +33,12 @@ RawMesh raw_mesh_of(const MeshData& mesh);
 std::size_t drop_degenerate_faces(RawMesh& mesh);
 
 /// Moves every position by `distance` (measured after `to_world`) along its normal: the average of the file's normals there, or of
-/// the adjacent faces by angle. Returns how many faces turned over.
+/// the adjacent faces. Returns how many faces turned over.
 std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_world);
+
+/// The surface at signed `distance` (measured after `to_world`) from a closed mesh; materials, uvs and masks are lost. Throws
+/// std::runtime_error when the mesh is not closed or nothing is left.
+RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world);
 
 /// The faces of one material, with vertices of their own.
 MeshData extract_material(const RawMesh& mesh, int material);

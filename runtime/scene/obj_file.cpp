@@ -2,6 +2,7 @@
 // before it and the indices after it.
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -48,29 +49,34 @@ bool is_corner(const std::string& word) {
   return !part.empty() && ok();
 }
 
-void check_text(const JsonNode& node, const std::string& path, const std::string& text) {
-  std::istringstream stream(text);
-  std::string line;
+// Checks the lines of numbers, and returns the text without comments behind them, which tinyobjloader would read as indices.
+std::string checked_text(const JsonNode& node, const std::string& path, std::istream& stream) {
+  std::string line, text;
   for (int number = 1; std::getline(stream, line); number++) {
     const auto fail = [&](const std::string& message) { node.fail(path + ":" + std::to_string(number) + ": " + message); };
-    const auto words = words_of(line);
+    auto words = words_of(line);
     if (words.empty()) continue;
-    const std::string& kind = words[0];
+    const std::string kind = words[0];
+    if (kind == "v" || kind == "vn" || kind == "vt" || kind == "f") {
+      line.resize(std::min(line.find('#'), line.size()));
+      words = words_of(line);
+    }
+    text += line + "\n";
     if (kind == "v" || kind == "vn" || kind == "vt") {
       const std::size_t needed = kind == "vt" ? 1 : 3;
-      for (std::size_t i = 1; i < words.size() && words[i][0] != '#'; i++) {
+      for (std::size_t i = 1; i < words.size(); i++) {
         const auto value = parse_number(words[i]);
         if (!value) fail("\"" + words[i] + "\" is not a number");
         if (!(std::abs(*value) <= kLargest)) fail("the coordinate " + words[i] + " is not finite or too large");
       }
       if (words.size() <= needed) fail("\"" + kind + "\" needs " + std::to_string(needed) + " numbers");
     } else if (kind == "f") {
-      std::size_t corners = 0;
-      for (std::size_t i = 1; i < words.size() && words[i][0] != '#'; i++, corners++)
+      for (std::size_t i = 1; i < words.size(); i++)
         if (!is_corner(words[i])) fail("\"" + words[i] + "\" is no corner of a face");
-      if (corners < 3) fail("a face needs at least three corners");
+      if (words.size() < 4) fail("a face needs at least three corners");
     }
   }
+  return text;
 }
 
 // 1-based from the start, or negative from the end so far; 0 means that there is none.
@@ -116,10 +122,7 @@ void check_indices(const JsonNode& node, const std::string& path, const RawMesh&
 
 RawMesh read_obj(const JsonNode& node, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::stringstream buffer;
-  buffer << file.rdbuf();
-  const std::string text = buffer.str();
-  check_text(node, path, text);
+  std::istringstream stream(checked_text(node, path, file));
 
   Loader loader;
   tinyobj::callback_t callbacks;
@@ -132,7 +135,6 @@ RawMesh read_obj(const JsonNode& node, const std::string& path) {
   callbacks.texcoord_cb = [](void* data, float x, float y, float) { static_cast<Loader*>(data)->mesh.uvs.push_back({x, y}); };
   callbacks.index_cb = add_face;
   callbacks.usemtl_cb = use_material;
-  std::istringstream stream(text);
   std::string warning, error;
   const bool loaded = tinyobj::LoadObjWithCallback(stream, callbacks, &loader, nullptr, &warning, &error);
   if (!loaded || !error.empty()) node.fail(path + " cannot be read as OBJ: " + error);

@@ -203,7 +203,7 @@ void check_range(const JsonNode& node, const Spectrum& s, SpectrumRole role, con
   const auto check_at = [&](double lambda) {
     const double value = plain_value(s, role, lambda);
     if (!std::isfinite(value)) node.fail("the value at " + show(lambda) + " nm is not finite");
-    if (!range.contains(value)) node.fail("the value at " + show(lambda) + " nm, " + show(value) + ", " + range.text());
+    if (!range.contains(value)) node.fail("the value at " + show(lambda) + " nm, about " + show(value, 6) + ", " + range.text());
   };
   for (int lambda = 280; lambda <= 780; lambda++) check_at(lambda);
   for (const double lambda : s.wavelengths)

@@ -5,9 +5,9 @@
 #include <functional>
 #include <stdexcept>
 
+#include "mesh/generate.h"
 #include "scene/material_reader.h"
 #include "scene/medium_reader.h"
-#include "scene/mesh_generator.h"
 #include "scene/mesh_reader.h"
 #include "scene/spectrum_reader.h"
 #include "scene/transform_reader.h"
@@ -98,25 +98,43 @@ void read_triangle(ReadContext& context, const JsonNode& node, const Affine& par
   context.scene.surfaces.push_back(s);
 }
 
-RawMesh generate(const JsonObject& o, bool by_distance_field, double offset) {
+RawMesh generate(const JsonObject& o) {
   const JsonNode name = o.require("generator");
   const std::string text = name.string();
   if (text != "head" && text != "hand")
     name.fail("no generator is called \"" + text + "\" (there are head and hand)" + did_you_mean(text, {"head", "hand"}));
-  MeshGeneratorOptions options;
-  if (const auto triangles = o.find("triangles")) options.triangles = static_cast<int>(triangles->integer(100, 10'000'000));
-  if (by_distance_field) options.offset = offset;
+  GeneratorOptions options;
+  options.resolution = o.number("resolution", options.resolution, {0.3, 10});
+  options.pose = o.string("pose", "");
   if (const auto parameters = o.find("parameters")) {
     if (!parameters->is_object()) parameters->fail_type("an object of numbers");
     for (const auto& item : parameters->json().items())
       options.parameters.emplace_back(item.key(), parameters->child(item.key()).number());
   }
-  if (!mesh_generator()) name.fail("generated meshes are not available in this program");
   try {
-    return raw_mesh_of(mesh_generator()(text, options));
+    return raw_mesh_of(generate_mesh(text, options));
   } catch (const std::invalid_argument& error) {
     o.node().fail(error.what());
   }
+}
+
+RawMesh offset_mesh(ReadContext& context, const JsonObject& o, RawMesh& mesh, double offset, bool by_distance_field, const Affine& to_world) {
+  const JsonNode node = o.require("offset");
+  if (by_distance_field) {
+    if (mesh.materials.size() > 1) node.fail("a mesh of several materials has no offset by distance field");
+    try {
+      return offset_surface(mesh, offset, to_world);
+    } catch (const std::runtime_error& error) {
+      node.fail(error.what());
+    }
+  }
+  const std::size_t total = mesh.faces.size();
+  if (const std::size_t flipped = offset_positions(mesh, offset, to_world))
+    context.warn(node, "the offset turned " + std::to_string(flipped) + " of " + std::to_string(total) + " triangles over");
+  if (const std::size_t collapsed = drop_degenerate_faces(mesh))
+    context.warn(node, "the offset left " + std::to_string(collapsed) + " triangles without area");
+  if (mesh.faces.empty()) node.fail("the offset leaves nothing of the mesh");
+  return mesh;
 }
 
 RawMesh load_mesh(ReadContext& context, const JsonObject& o, const Affine& to_world) {
@@ -127,24 +145,16 @@ RawMesh load_mesh(ReadContext& context, const JsonObject& o, const Affine& to_wo
   if (method != "normals" && method != "distance field")
     o.require("offset method").fail("expected \"normals\" or \"distance field\"" + did_you_mean(method, {"normals", "distance field"}));
   const bool by_distance_field = method == "distance field";
-  if (by_distance_field && filename) o.require("offset method").fail("only generated meshes have a distance field");
   if (filename)
-    for (const char* key : {"triangles", "parameters"})
+    for (const char* key : {"resolution", "pose", "parameters"})
       if (const auto value = o.find(key)) value->fail_at_key("this key is for generated meshes");
 
-  RawMesh mesh = filename ? read_obj(*filename, context.file_path(*filename)) : generate(o, by_distance_field, offset);
+  RawMesh mesh = filename ? read_obj(*filename, context.file_path(*filename)) : generate(o);
   const std::size_t total = mesh.faces.size();
   if (const std::size_t dropped = drop_degenerate_faces(mesh))
     context.warn(o.node(), std::to_string(dropped) + " of " + std::to_string(total) + " triangles have no area and were dropped");
   if (mesh.faces.empty()) o.node().fail("no triangle of the mesh has an area");
-  if (offset != 0 && !by_distance_field) {
-    const std::size_t flipped = offset_positions(mesh, offset, to_world);
-    if (flipped)
-      context.warn(o.require("offset"), "the offset turned " + std::to_string(flipped) + " of " + std::to_string(mesh.faces.size()) +
-                                            " triangles over");
-    if (const std::size_t collapsed = drop_degenerate_faces(mesh))
-      context.warn(o.require("offset"), "the offset left " + std::to_string(collapsed) + " triangles without area");
-  }
+  if (offset != 0) return offset_mesh(context, o, mesh, offset, by_distance_field, to_world);
   return mesh;
 }
 
@@ -165,7 +175,7 @@ MaterialPtr material_for(ReadContext& context, const JsonObject& o, const std::s
 
 void read_mesh(ReadContext& context, const JsonNode& node, const Affine& parent) {
   const JsonObject o = surface_object(
-      node, "a mesh", {"filename", "generator", "triangles", "parameters", "offset", "offset method", "material prefix"});
+      node, "a mesh", {"filename", "generator", "resolution", "pose", "parameters", "offset", "offset method", "material prefix"});
   SurfaceDescription s = read_common(context, o, parent);
   s.kind = SurfaceKind::Mesh;
   const auto material = o.find("material");

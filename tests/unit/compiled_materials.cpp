@@ -1,4 +1,8 @@
 // Materials, textures and RGB mode: defaults, flags, features, tables stored once.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "compiled/spectra.h"
 #include "compiled_scenes.h"
 
@@ -129,6 +133,31 @@ TEST(CompiledTexture, ImagesAreUpsampledAndMasksAreNumbers) {
     for (int i = 0; i < 1000; i++) table[std::size_t(i)] = float(p[3] * sigmoid_value({p[0], p[1], p[2]}, 280 + i / 2 + i % 2));
     const Vec3d rgb = xyz_to_rgb(reflectance_xyz(table));
     for (int k = 0; k < 3; k++) EXPECT_NEAR(rgb[k], image->rgb[std::size_t(3 * pixel + k)], 2e-3);
+  }
+}
+
+// Images of very many colours are interpolated: each texel must still give its pixel's colour, bright, dark and saturated alike.
+TEST(CompiledTexture, ImagesOfManyColorsKeepThem) {
+  auto image = std::make_shared<ImagePixels>();
+  image->width = 200, image->height = 150;
+  std::mt19937 random(3);
+  for (int i = 0; i < 200 * 150; i++) {
+    const double level = i % 3 == 0 ? 1e-3 : i % 3 == 1 ? 0.05 : 1;
+    for (int k = 0; k < 3; k++) image->rgb.push_back(float(level * std::pow(double(random()) / 4294967295.0, 1 + i % 2)));
+  }
+  TextureDescription t;
+  t.kind = TextureKind::Image;
+  t.image = image;
+  MaterialDescription m = material(MaterialKind::Lambertian);
+  m.albedo.texture = std::make_shared<const TextureDescription>(t);
+  const CompiledScene s = compile_scene(with(m));
+  for (std::size_t pixel = 0; pixel < 30000; pixel += 97) {
+    const float* p = &s.texels[4 * pixel];
+    SpectrumTable table;
+    for (int i = 0; i < 1000; i++) table[std::size_t(i)] = float(p[3] * sigmoid_value({p[0], p[1], p[2]}, 280 + i / 2 + i % 2));
+    const Vec3d rgb = xyz_to_rgb(reflectance_xyz(table));
+    const double peak = std::max({image->rgb[3 * pixel], image->rgb[3 * pixel + 1], image->rgb[3 * pixel + 2]});
+    for (int k = 0; k < 3; k++) EXPECT_NEAR(rgb[k], image->rgb[3 * pixel + std::size_t(k)], 1e-5 + 0.03 * peak * (peak < 0.5 ? 1 : 0.5)) << pixel;
   }
 }
 

@@ -1,0 +1,98 @@
+// The JSON layer: places, what JSON forbids, what JSON libraries let pass, --set.
+#include "unit/scene_support.h"
+
+namespace stokes {
+namespace {
+
+TEST(SceneJson, ErrorsPointAtTheValue) {
+  EXPECT_EQ(error_of("{\n  \"camera\": {},\n  \"media\": [\n    {\"type\": \"vacuum\", \"name\": \"v\"},\n"
+                     "    {\"type\": \"homogeneous\", \"name\": \"fog\", \"sigma_t\": 1,\n"
+                     "     \"albedo\": 0.5, \"g\": 1.2}\n  ]\n}"),
+            "scene.json:6:26: error: /media/1/g: 1.2 is outside (-1, 1)");
+}
+
+TEST(SceneJson, UnknownKeysPointAtTheKey) {
+  EXPECT_EQ(error_of("{\n \"camera\": {\"vofv\":\n\n 40}}"),
+            "scene.json:2:13: error: /camera/vofv: unknown key in a camera; did you mean \"vfov\"?");
+}
+
+TEST(SceneJson, PlacesSurviveEscapesAndByteOrderMark) {
+  const SceneDescription s = parse("\xEF\xBB\xBF{\"camera\": {},\n \"$schema\": \"a\\\"}\\\\\",\n \"sampler\": {\"samples\": 3}}");
+  EXPECT_EQ(s.source.find("/sampler/samples").line, 3);
+  EXPECT_EQ(s.source.find("/sampler/samples").column, 25);
+  EXPECT_EQ(s.source.find("/sampler/samples/no/such").line, 3);
+}
+
+TEST(SceneJson, PointersEscapeTheirTokens) {
+  EXPECT_EQ(error_of("{\"a/b~c\": 1}"), "scene.json:1:2: error: /a~1b~0c: unknown key in a scene");
+}
+
+TEST(SceneJson, DuplicateKeys) {
+  EXPECT_EQ(error_of("{\"camera\": {},\n \"camera\": {}}"), "scene.json:2:2: error: /camera: this key occurs twice");
+  EXPECT_EQ(error_of(with("\"integrator\": {\"max bounces\": 1,\n\"max_bounces\": 2}")),
+            "scene.json:3:1: error: /integrator/max_bounces: this key is \"max bounces\" again");
+}
+
+TEST(SceneJson, WhatIsNotJson) {
+  EXPECT_EQ(error_of(with("\"background\": NaN")), "scene.json:2:15: error: NaN is not a number in JSON; values must be finite");
+  EXPECT_EQ(error_of(with("\"background\": Infinity")),
+            "scene.json:2:15: error: Infinity is not a number in JSON; values must be finite");
+  EXPECT_EQ(error_of(with("\"background\": -Infinity")),
+            "scene.json:2:15: error: -Infinity is not a number in JSON; values must be finite");
+  EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::StartsWith("scene.json:2:"));
+  EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::HasSubstr("1e999 is too large for a number"));
+  EXPECT_THAT(error_of("{\"camera\": {}}\n}"), testing::StartsWith("scene.json:2:1: error: not JSON:"));
+  EXPECT_THAT(error_of("{\"camera\": {},}"), testing::StartsWith("scene.json:1:15: error: not JSON:"));
+  EXPECT_THAT(error_of("{\"camera\": {} // eye\n}"), testing::StartsWith("scene.json:1:1"));
+  EXPECT_THAT(error_of(""), testing::StartsWith("scene.json:1:1: error: not JSON:"));
+  EXPECT_THAT(error_of("{\"camera\": \"\xff\"}"), testing::HasSubstr("not JSON"));
+  EXPECT_EQ(error_of("[]"), "scene.json:1:1: error: expected a scene, not an array");
+  EXPECT_THAT(error_of("{\"camera\":" + std::string(5000, '[')), testing::HasSubstr("nested deeper"));
+}
+
+TEST(SceneJson, EveryErrorIsOneLine) {
+  EXPECT_EQ(error_of("{\"a\\nb\": 1}").find('\n'), std::string::npos);
+  EXPECT_EQ(error_of("{\"camera\": {\"type\": \"x\\ny\"}}").find('\n'), std::string::npos);
+  for (const char* text : {"{", "{\"a\" 1}", "nul", "{\"a\": \"\n\"}"}) EXPECT_EQ(error_of(text).find('\n'), std::string::npos);
+}
+
+TEST(SceneJson, MissingFile) {
+  try {
+    read_scene("/nonexistent/scene.json");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent/scene.json:1:1: error: the scene cannot be read: No such file or directory");
+  }
+  EXPECT_THROW(read_scene("/tmp"), SceneError);
+}
+
+TEST(SceneOverride, ReplacesAndCreates) {
+  const std::string text = R"({"camera": {"vfov": 30}, "integrator": {"max bounces": 3}, "surfaces": [{"type": "quad", "material": {"type": "lambertian"}}]})";
+  const SceneDescription s = parse(text, {{"/camera/vfov", "40"},
+                                          {"/integrator/max_bounces", "7"},
+                                          {"/sampler/samples", "5"},
+                                          {"/integrator/type", "path tracer nee"},
+                                          {"/surfaces/0/size", "[2, 3]"},
+                                          {"/surfaces/-", R"({"type": "sphere", "material": {"type": "interface"}})"}});
+  EXPECT_EQ(s.camera.vfov, 40);
+  EXPECT_EQ(s.integrator.max_bounces, 7);
+  EXPECT_EQ(s.integrator.kind, IntegratorKind::Nee);
+  EXPECT_EQ(s.samples, 5);
+  EXPECT_EQ(s.surfaces.at(0).height, 3);
+  EXPECT_EQ(s.surfaces.size(), 2u);
+}
+
+TEST(SceneOverride, FailsWhereThePointerLeadsNowhere) {
+  const std::string text = "{\"camera\": {\"vfov\": 30}, \"surfaces\": []}";
+  EXPECT_EQ(error_of(text, {{"/surfaces/2/size", "1"}}),
+            "scene.json:1:1: error: --set /surfaces/2/size: /surfaces has 0 entries, and 2 is none of them");
+  EXPECT_EQ(error_of(text, {{"/camera/vfov/x", "1"}}),
+            "scene.json:1:1: error: --set /camera/vfov/x: /camera/vfov is neither an object nor an array");
+  EXPECT_EQ(error_of(text, {{"camera", "1"}}), "scene.json:1:1: error: --set camera: a JSON pointer begins with /");
+  EXPECT_EQ(error_of(text, {{"/camera/vfvo", "1"}}),
+            "scene.json:1:12: error: /camera/vfvo: unknown key in a camera; did you mean \"vfov\"?");
+  EXPECT_EQ(error_of(text, {{"/camera/vfov", "200"}}), "scene.json:1:21: error: /camera/vfov: 200 is outside (0, 180)");
+}
+
+}  // namespace
+}  // namespace stokes
