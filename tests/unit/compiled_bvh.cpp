@@ -205,7 +205,7 @@ TEST_P(CompiledBvh, StaysShallowOnGeometricSequences) {
 }
 
 TEST(CompiledBvhQuality, IsNearWhatTheHeuristicCanReach) {
-  // 24 million rays' worth of sense in one number: a halving of quality (median splits, say) raises it far above.
+  // The expected work of a ray in one number; median splits instead of the heuristic raise it by half.
   const CompiledScene s = compile_scene(scene_of({mesh(lambertian(), bumpy_sphere(100))}));
   const compiled::Bvh bvh = compiled::build_bvh(s.positions, s.triangles, 8);
   EXPECT_LT(bvh.sah, 20);
