@@ -29,11 +29,11 @@ CompiledScene compile_scene(const SceneDescription& scene, const CompileOptions&
   compile_medium(c, nullptr);
   compile_surfaces(c);
   append_vertex_masks(c);
+  compile_camera(c);  // may bring a medium of its own
 
   // The lights' spectrum completes the dyes' excitations.
   compile_lights(c);
   complete_excitations(c);
-  compile_camera(c);
   check_unused(c);
 
   // The BVH, and the numbers about the whole.
