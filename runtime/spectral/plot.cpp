@@ -81,10 +81,11 @@ void draw_axes(Canvas& canvas, const Plot& plot, const Frame& f) {
   canvas.rectangle(f.left, f.bottom + 2, f.right - f.left, 12, kGrid);
   for (double lambda = kVisibleMin; lambda < kVisibleMax; lambda += 2) {
     const Vec3d c = display_colour(lambda + 1) * 255;
-    canvas.rectangle(f.x(lambda), f.bottom + 2, f.x(lambda + 2) - f.x(lambda), 12,
+    // Each colour reaches to the end and the next covers it, so that no seams show.
+    canvas.rectangle(f.x(lambda), f.bottom + 2, f.right - f.x(lambda), 12,
                      {std::uint8_t(std::lround(c.x)), std::uint8_t(std::lround(c.y)), std::uint8_t(std::lround(c.z))});
   }
-  canvas.text((f.x(kLambdaMin) + f.x(kVisibleMin)) / 2, f.bottom - 8, "ultraviolet", Anchor::Middle, 12, kFaint);
+  canvas.text((f.x(kLambdaMin) + f.x(kVisibleMin)) / 2, f.top + 20, "ultraviolet", Anchor::Middle, 12, kFaint);
   canvas.text((f.left + f.right) / 2, f.bottom + 60, "wavelength (nm)", Anchor::Middle, 13, kText);
   if (!plot.title.empty()) canvas.text(f.left, 28, plot.title, Anchor::Start, 18, kText);
   canvas.text(f.left, f.top - 12, plot.y_label, Anchor::Start, 13, kFaint);
@@ -110,8 +111,7 @@ void draw_curve(Canvas& canvas, const PlotCurve& curve, const Frame& f, Ink ink)
   canvas.polyline(points, 2, ink);
 }
 
-// Names with their colours, from the right, above the plotting area; a new row where one is full would hide curves, so names shrink
-// to what fits.
+// Names with their colours, in the upper right corner; long names are cut.
 void draw_legend(Canvas& canvas, const Plot& plot, const Frame& f, const std::vector<Ink>& inks) {
   constexpr double row = 20, swatch = 18;
   std::size_t longest = 0;
@@ -155,9 +155,7 @@ Pixels plot_pixels(const Plot& plot, int width, int height) {
 
 Vec3d display_colour(double lambda) {
   if (lambda <= kVisibleMin || lambda >= kVisibleMax) return {};
-  Vec3d rgb = xyz_to_rgb(cie_xyz(lambda));
-  const double white = std::max(0.0, -std::min({rgb.x, rgb.y, rgb.z}));
-  rgb += {white, white, white};
+  Vec3d rgb = max(xyz_to_rgb(cie_xyz(lambda)), {0, 0, 0});
   rgb = rgb / std::max({rgb.x, rgb.y, rgb.z});
   const double fade = std::min({1.0, (lambda - kVisibleMin) / 50, (kVisibleMax - lambda) / 100});
   return {encode_srgb(rgb.x * fade), encode_srgb(rgb.y * fade), encode_srgb(rgb.z * fade)};

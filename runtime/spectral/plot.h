@@ -36,8 +36,8 @@ Pixels plot_pixels(const Plot& plot, int width = 960, int height = 540);
 /// 280-780 nm from left to right, each column in its spectral colour, black where the eye sees nothing (outside 380-780 nm).
 Pixels wavelength_strip(int width = 1000, int height = 64);
 
-/// The colour, encoded as sRGB in [0, 1], that stands for light of one wavelength on a display: mixed with just enough white to be
-/// in the gamut, fading at the ends of the visible range.
+/// The colour, encoded as sRGB in [0, 1], that stands for light of one wavelength on a display: as bright as the display can, cut to
+/// its gamut, fading at the ends of the visible range and black outside.
 Vec3d display_colour(double lambda);
 
 }  // namespace stokes
