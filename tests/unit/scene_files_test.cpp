@@ -1,5 +1,6 @@
 // Files that a scene names: OBJ meshes, CSV spectra and matrices, images. Good ones are read, bad ones name their fault.
 #include <cmath>
+#include <sstream>
 
 #include "unit/scene_support.h"
 
@@ -212,6 +213,27 @@ TEST(SceneImage, EnvironmentMap) {
   EXPECT_EQ(b.environment->rgb, (std::vector<float>{2.0f, 0.5f, 0.25f}));
   EXPECT_EQ(b.rotate, 90);
   EXPECT_EQ(b.scale, 2);
+}
+
+// Every scene of the project is valid, says nothing that needs a warning, and stands in the manual.
+TEST(SceneFolder, EverySceneIsReadAndDescribed) {
+  const std::filesystem::path folder = std::filesystem::path(STOKES_SOURCE_DIR) / "scenes";
+  std::stringstream manual;
+  manual << std::ifstream(folder / "README.md").rdbuf();
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const std::string name = entry.path().stem().string();
+    SceneOverrides coarse;  // generated heads as coarse as a test needs
+    if (name.starts_with("skin")) coarse.emplace_back("/surfaces/0/resolution", "10");
+    if (name == "skin_two_layers") coarse.emplace_back("/surfaces/1/resolution", "10");
+    SceneDescription scene;
+    EXPECT_NO_THROW(scene = read_scene(entry.path().string(), coarse)) << name;
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << name;
+    EXPECT_THAT(manual.str(), testing::HasSubstr("`" + name + "`"));
+    count++;
+  }
+  EXPECT_GE(count, 40);
 }
 
 }  // namespace
