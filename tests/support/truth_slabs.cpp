@@ -31,8 +31,10 @@ SceneDescription layer(double width, double depth, MaterialPtr boundary, MediumP
   top.inside = filling;
   scene.surfaces.push_back(top);
   if (depth > 0) {
+    // Its normal points down, out of the layer: indices of refraction are inside over outside.
     SurfaceDescription bottom = horizontal_square(-depth, width, boundary);
-    bottom.outside = filling;
+    bottom.flip = true;
+    bottom.inside = filling;
     scene.surfaces.push_back(bottom);
     SurfaceDescription floor = horizontal_square(-depth * 1.01, width, black());
     if (quantity == Quantity::Transmittance) floor.emit = number(1);
