@@ -92,6 +92,7 @@ LoadedScene load_scene(const std::string& path, const SceneOptions& options, con
   loaded.path = path;
   loaded.description = read_with_overrides(path, options);
   if (bins.count > 0 && loaded.description.integrator.mode == ColorMode::Rgb) throw UsageError("--spectral: there are no wavelengths in rgb mode");
+  limit_cpu_threads(options.threads);
   loaded.device = find_backend(options.device);
   loaded.compiled = compile_scene(loaded.description, compile_options(loaded.device, aovs, bins));
   // The first choice could not know the scene's size.
