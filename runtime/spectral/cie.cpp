@@ -27,7 +27,7 @@ Vec3d solve(const Vec3d (&columns)[3], Vec3d right) {
 }
 
 // The published sRGB matrix has its white at (0.3127, 0.3290), CIE's table of D65 at (0.31272, 0.32903): the table's pixel would be
-// (1.00015, 0.99998, 0.99976). A factor quadratic in the wavelength (within 0.1 % of 1) makes it (1, 1, 1), so that a white surface in
+// (1.00015, 0.99998, 0.99976). A factor quadratic in the wavelength (within 0.1 % of 1 from 380 nm, 0.2 % below) makes it (1, 1, 1), so that a white surface in
 // white light is white to the last digit, and grey reflectances are upsampled to exact constants.
 Vec3d white_correction() {
   static const Vec3d correction = [] {
