@@ -122,6 +122,7 @@ ReradiationMatrix matrix() {
   for (std::size_t i = 0; i < 5; i++) m.values[i * 5 + i] = 0.4;
   m.values[3 * 5 + 0] = 0.2;
   m.values[3 * 5 + 1] = 1.6;
+  m.values[2 * 5 + 4] = 0.1;  // row 400 has a density of its own, away from what row 450 lends it
   m.values[1 * 5 + 2] = -0.01;
   return m;
 }
