@@ -1,6 +1,10 @@
 // See kernel_program.h.
 #include "support/kernel_program.h"
 
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#define CL_HPP_ENABLE_EXCEPTIONS
+#include <CL/opencl.hpp>
 #include <algorithm>
 #include <ctime>
 #include <stdexcept>
@@ -50,33 +54,63 @@ double cpu_seconds() {
 
 }  // namespace
 
-KernelProgram::KernelProgram(const std::string& path, const KernelVariant& variant)
-    : variant_(variant), device_(first_cpu()), context_(device_), queue_(context_, device_) {
-  program_ = cl::Program(context_, "#include \"" STOKES_SOURCE_DIR "/" + path + "\"\n");
+struct KernelProgram::Device {
+  cl::Device device = first_cpu();
+  cl::Context context{device};
+  cl::CommandQueue queue{context, device};
+  cl::Program program;
+  std::vector<cl::Buffer> scene;
+
+  cl::Buffer upload(const void* data, std::size_t bytes) {
+    // A buffer must not be empty.
+    cl::Buffer buffer(context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 64));
+    if (bytes) queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
+    return buffer;
+  }
+};
+
+KernelProgram::~KernelProgram() = default;
+KernelProgram::KernelProgram(KernelProgram&&) noexcept = default;
+
+KernelProgram::KernelProgram(const std::string& path, const KernelVariant& variant) : variant_(variant), device_(std::make_unique<Device>()) {
+  device_->program = cl::Program(device_->context, "#include \"" STOKES_SOURCE_DIR "/" + path + "\"\n");
   try {
-    program_.build({device_}, build_options(variant).c_str());
+    device_->program.build({device_->device}, build_options(variant).c_str());
   } catch (const cl::Error&) {
-    throw std::runtime_error(path + ":\n" + program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_));
+    throw std::runtime_error(path + ":\n" + device_->program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_->device));
   }
 }
 
-cl::Buffer KernelProgram::upload(const void* data, std::size_t bytes) {
-  // A buffer must not be empty.
-  cl::Buffer buffer(context_, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 64));
-  if (bytes) queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
-  return buffer;
-}
-
-void KernelProgram::enqueue(cl::Kernel& kernel, std::size_t work_items) {
+void KernelProgram::launch(const std::string& name, std::size_t work_items, bool with_scene, const std::vector<Argument>& arguments) {
+  cl::Kernel kernel(device_->program, name.c_str());
+  cl_uint index = 0;
+  if (with_scene)
+    for (const cl::Buffer& buffer : device_->scene) kernel.setArg(index++, buffer);
+  std::vector<cl::Buffer> buffers;
+  for (const Argument& a : arguments) {
+    if (a.kind == Argument::Kind::Value) {
+      kernel.setArg(index++, a.bytes, a.data);
+      continue;
+    }
+    buffers.push_back(device_->upload(a.data, a.bytes));
+    kernel.setArg(index++, buffers.back());
+  }
   const double begin = cpu_seconds();
-  queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_items), cl::NDRange(1));
-  queue_.finish();
+  device_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_items), cl::NDRange(1));
+  device_->queue.finish();
   seconds_ = cpu_seconds() - begin;
+  std::size_t next = 0;
+  for (const Argument& a : arguments) {
+    if (a.kind == Argument::Kind::Value) continue;
+    if (a.kind == Argument::Kind::Output) device_->queue.enqueueReadBuffer(buffers[next], CL_TRUE, 0, a.bytes, a.data);
+    next++;
+  }
 }
 
 void KernelProgram::set_scene(const CompiledScene& s) {
-  scene_.clear();
-  const auto add = [this](const auto& v) { scene_.push_back(upload(v.data(), v.size() * sizeof(v[0]))); };
+  std::vector<cl::Buffer>& scene = device_->scene;
+  scene.clear();
+  const auto add = [&](const auto& v) { scene.push_back(device_->upload(v.data(), v.size() * sizeof(v[0]))); };
   const std::vector<layout::Scene> header{s.header};
   const std::vector<layout::Environment> environment{s.environment};
   add(header), add(s.bvh_nodes), add(s.bvh_leaves), add(s.quads), add(s.spheres), add(s.ellipsoids), add(s.triangles);

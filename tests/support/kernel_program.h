@@ -1,11 +1,9 @@
 // Runs probe kernels on the first CPU device: builds a .cl file with the kernels folder on its include path, copies vectors in and out.
 // Knows OpenCL and CompiledScene's arrays, nothing of the renderer's own device layer, so that a mistake there cannot hide here.
 #pragma once
-#define CL_HPP_TARGET_OPENCL_VERSION 120
-#define CL_HPP_MINIMUM_OPENCL_VERSION 120
-#define CL_HPP_ENABLE_EXCEPTIONS
-#include <CL/opencl.hpp>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "compiled/compiled_scene.h"
@@ -31,71 +29,57 @@ struct Out {
 template <typename T>
 Out(std::vector<T>&) -> Out<T>;
 
+/// One argument of a kernel, without its type.
+struct Argument {
+  enum class Kind { Input, Output, Value } kind;
+  void* data;
+  std::size_t bytes;
+};
+
 class KernelProgram {
  public:
   /// Builds `path` (relative to the repository). Throws std::runtime_error with the build log.
   KernelProgram(const std::string& path, const KernelVariant& variant);
+  ~KernelProgram();
+  KernelProgram(KernelProgram&&) noexcept;
 
   int lanes() const { return variant_.lanes; }
-  const KernelVariant& variant() const { return variant_; }
 
-  /// Uploads the scene; kernels that are run `with_scene` get its buffers as their first arguments, in view.cl's order.
+  /// Uploads the scene for run_with_scene.
   void set_scene(const CompiledScene& scene);
 
-  /// Runs `work_items` of a kernel. Arguments: const std::vector<T>& (read), Out<T> (written), and plain numbers.
+  /// Runs `work_items` of a kernel. Arguments: std::vector<T> (read), Out<T> (written), and plain numbers.
   template <typename... Args>
-  void run(const std::string& kernel, std::size_t work_items, Args&&... args) {
-    launch(kernel, work_items, {}, std::forward<Args>(args)...);
+  void run(const std::string& kernel, std::size_t work_items, const Args&... args) {
+    launch(kernel, work_items, false, {argument(args)...});
   }
+  /// The same for kernels whose first arguments are the scene's buffers in view.cl's order.
   template <typename... Args>
-  void run_with_scene(const std::string& kernel, std::size_t work_items, Args&&... args) {
-    launch(kernel, work_items, scene_, std::forward<Args>(args)...);
+  void run_with_scene(const std::string& kernel, std::size_t work_items, const Args&... args) {
+    launch(kernel, work_items, true, {argument(args)...});
   }
-  /// CPU seconds of the last launch.
+  /// CPU seconds that the last launch took, copies not counted.
   double seconds() const { return seconds_; }
 
  private:
-  template <typename... Args>
-  void launch(const std::string& name, std::size_t work_items, const std::vector<cl::Buffer>& first, Args&&... args) {
-    cl::Kernel kernel(program_, name.c_str());
-    outputs_.clear();
-    cl_uint index = 0;
-    for (const cl::Buffer& buffer : first) kernel.setArg(index++, buffer);
-    std::vector<cl::Buffer> alive;
-    (set(kernel, index++, alive, args), ...);
-    enqueue(kernel, work_items);
-    for (const Output& out : outputs_) queue_.enqueueReadBuffer(out.buffer, CL_TRUE, 0, out.bytes, out.host);
+  template <typename T>
+  static Argument argument(const std::vector<T>& v) {
+    return {Argument::Kind::Input, const_cast<T*>(v.data()), v.size() * sizeof(T)};
   }
   template <typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::vector<cl::Buffer>& alive, const std::vector<T>& values) {
-    alive.push_back(upload(values.data(), values.size() * sizeof(T)));
-    kernel.setArg(index, alive.back());
-  }
-  template <typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::vector<cl::Buffer>& alive, const Out<T>& out) {
-    set(kernel, index, alive, out.values);
-    outputs_.push_back({alive.back(), out.values.data(), out.values.size() * sizeof(T)});
+  static Argument argument(const Out<T>& v) {
+    return {Argument::Kind::Output, v.values.data(), v.values.size() * sizeof(T)};
   }
   template <typename T>
     requires std::is_arithmetic_v<T>
-  void set(cl::Kernel& kernel, cl_uint index, std::vector<cl::Buffer>&, const T& value) {
-    kernel.setArg(index, value);
+  static Argument argument(const T& v) {
+    return {Argument::Kind::Value, const_cast<T*>(&v), sizeof(T)};
   }
-  cl::Buffer upload(const void* data, std::size_t bytes);
-  void enqueue(cl::Kernel& kernel, std::size_t work_items);
+  void launch(const std::string& name, std::size_t work_items, bool with_scene, const std::vector<Argument>& arguments);
 
-  struct Output {
-    cl::Buffer buffer;
-    void* host;
-    std::size_t bytes;
-  };
+  struct Device;
   KernelVariant variant_;
-  cl::Device device_;
-  cl::Context context_;
-  cl::CommandQueue queue_;
-  cl::Program program_;
-  std::vector<cl::Buffer> scene_;
-  std::vector<Output> outputs_;
+  std::unique_ptr<Device> device_;
   double seconds_ = 0;
 };
 
