@@ -42,7 +42,7 @@ struct ImagePixels {
 
 struct TextureDescription {
   TextureKind kind = TextureKind::Checker;
-  ColorSource a, b;      ///< checker: even, odd; marble: base, veins; wireframe: base, wire
+  ColorSource a, b;  ///< checker: even, odd; marble: base, veins; wireframe: base, wire
   double scale = 1;
   double parameter = 0;  ///< wireframe: thickness (fraction of barycentrics or world units as darts); fresnel: ior
   std::shared_ptr<const ImagePixels> image;
@@ -56,7 +56,17 @@ struct TextureDescription {
 
 // ---- Materials --------------------------------------------------------------------------------------------------
 enum class MaterialKind {
-  Lambertian, Metal, Conductor, Dielectric, Interface, Phong, BlinnPhong, DiffuseLight, Blend, DiffuseFluorescent, Reradiation
+  Lambertian,
+  Metal,
+  Conductor,
+  Dielectric,
+  Interface,
+  Phong,
+  BlinnPhong,
+  DiffuseLight,
+  Blend,
+  DiffuseFluorescent,
+  Reradiation
 };
 
 /// One dye of a fluorescent material or medium.
@@ -79,17 +89,17 @@ using MaterialPtr = std::shared_ptr<const MaterialDescription>;
 struct MaterialDescription {
   MaterialKind kind = MaterialKind::Lambertian;
   std::string name;
-  ColorSource albedo;             ///< also a dielectric's scatter albedo and a fluorescent base; may be empty (the kind's default)
+  ColorSource albedo;  ///< also a dielectric's scatter albedo and a fluorescent base; may be empty (the kind's default)
   SpectrumPtr ior, eta, k;
-  double roughness = 0;           ///< metal
-  double alpha = 0;               ///< GGX
+  double roughness = 0;  ///< metal
+  double alpha = 0;      ///< GGX
   double exponent = 1;
-  SpectrumPtr emit;               ///< diffuse_light, uv_light
-  TexturePtr emit_texture;        ///< a textured diffuse_light
-  std::optional<double> power;    ///< uv_light: W per m^2 leaving the surface (radiant exitance), scales `emit`
-  MaterialPtr a, b;               ///< blend: a, b; painted: base, paint
-  std::optional<double> amount;   ///< blend: constant amount of b
-  TexturePtr amount_texture;      ///< blend: texture amount; painted: mask
+  SpectrumPtr emit;              ///< diffuse_light, uv_light
+  TexturePtr emit_texture;       ///< a textured diffuse_light
+  std::optional<double> power;   ///< uv_light: W per m^2 leaving the surface (radiant exitance), scales `emit`
+  MaterialPtr a, b;              ///< blend: a, b; painted: base, paint
+  std::optional<double> amount;  ///< blend: constant amount of b
+  TexturePtr amount_texture;     ///< blend: texture amount; painted: mask
   std::vector<DyeDescription> dyes;
   std::shared_ptr<const ReradiationMatrix> matrix;
   std::string pointer;
@@ -104,7 +114,7 @@ struct MediumDescription {
   SpectrumPtr sigma_t, sigma_s, sigma_a, albedo;  ///< exactly two of them, in 1/unit
   SpectrumPtr g;                                  ///< null: isotropic
   LengthUnit unit = LengthUnit::None;
-  std::vector<DyeDescription> dyes;               ///< their absorption is sigma_a in 1/unit and adds to the medium's
+  std::vector<DyeDescription> dyes;  ///< their absorption is sigma_a in 1/unit and adds to the medium's
   std::string pointer;
 };
 using MediumPtr = std::shared_ptr<const MediumDescription>;
@@ -117,13 +127,13 @@ enum class SurfaceKind { Quad, Sphere, Triangle, Mesh };
 struct SurfaceDescription {
   SurfaceKind kind = SurfaceKind::Quad;
   std::string name;
-  double width = 1, height = 1;  ///< quad: in its local xy-plane, centred, normal +z
-  double radius = 1;             ///< sphere
+  double width = 1, height = 1;          ///< quad: in its local xy-plane, centred, normal +z
+  double radius = 1;                     ///< sphere
   std::shared_ptr<const MeshData> mesh;  ///< triangle, mesh; offsets are already applied, in local space
-  Affine transform;              ///< local to world
-  MaterialPtr material;          ///< never null
-  MediumPtr outside, inside;     ///< null: vacuum
-  SpectrumPtr emit;              ///< emission beside the material's, from the front side
+  Affine transform;                      ///< local to world
+  MaterialPtr material;                  ///< never null
+  MediumPtr outside, inside;             ///< null: vacuum
+  SpectrumPtr emit;                      ///< emission beside the material's, from the front side
   bool flip = false;
   std::string pointer;
 };
@@ -132,8 +142,8 @@ struct SurfaceDescription {
 struct CameraDescription {
   Affine transform;  ///< camera to world
   bool orthographic = false;
-  double vfov = 90;    ///< degrees
-  double height = 2;   ///< orthographic: scene units
+  double vfov = 90;   ///< degrees
+  double height = 2;  ///< orthographic: scene units
   double fdist = 1, aperture = 0;
   int width = 512, height_pixels = 512;
   std::optional<MediumPtr> medium;  ///< not set: found from the scene; a null MediumPtr is vacuum
@@ -155,7 +165,7 @@ struct IntegratorDescription {
 struct BackgroundDescription {
   SpectrumPtr emission;  ///< null: black
   std::shared_ptr<const ImagePixels> environment;
-  double rotate = 0;     ///< degrees about +y
+  double rotate = 0;  ///< degrees about +y
   double scale = 1;
   std::string pointer;
 };

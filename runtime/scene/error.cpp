@@ -13,8 +13,8 @@ std::string one_line(std::string text) {
 
 std::string format_line(const SourceMap& source, const std::string& pointer, const std::string& message) {
   const SourcePosition place = source.find(pointer);
-  return one_line(source.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": error: " +
-                  (pointer.empty() ? "" : pointer + ": ") + message);
+  return one_line(source.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+                  ": error: " + (pointer.empty() ? "" : pointer + ": ") + message);
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& n
       node.fail(where + std::to_string(row.size()) + " columns, where the first row has " + std::to_string(matrix->li.size() + 1));
     matrix->lo.push_back(row[0]);
     matrix->values.insert(matrix->values.end(), row.begin() + 1, row.end());
-    if (matrix->li.size() > kMaxBands || matrix->lo.size() > kMaxBands) node.fail(path + ": more than " + std::to_string(kMaxBands) + " bands");
+    if (matrix->li.size() > kMaxBands || matrix->lo.size() > kMaxBands)
+      node.fail(path + ": more than " + std::to_string(kMaxBands) + " bands");
   }
   check_bands(node, path, matrix->li, "incoming");
   check_bands(node, path, matrix->lo, "outgoing");

@@ -124,9 +124,8 @@ JsonObject::JsonObject(const JsonNode& node, const std::string& what, std::vecto
     : node_(node), what_(what), known_(std::move(known)) {
   if (!node.is_object()) node.fail_type(what);
   for (const auto& item : node.json().items()) {
-    const bool is_known = std::any_of(known_.begin(), known_.end(), [&](const std::string& k) {
-      return canonical_key(k) == canonical_key(item.key());
-    });
+    const bool is_known =
+        std::any_of(known_.begin(), known_.end(), [&](const std::string& k) { return canonical_key(k) == canonical_key(item.key()); });
     if (!is_known) node.child(item.key()).fail_at_key("unknown key in " + what + did_you_mean(item.key(), known_));
   }
 }

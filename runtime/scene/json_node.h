@@ -68,8 +68,7 @@ class JsonNode {
   JsonNode child(const std::string& key) const;
 
  private:
-  JsonNode(const JsonSource* source, const Json* json, std::string pointer)
-      : source_(source), json_(json), pointer_(std::move(pointer)) {}
+  JsonNode(const JsonSource* source, const Json* json, std::string pointer) : source_(source), json_(json), pointer_(std::move(pointer)) {}
   const JsonSource* source_;
   const Json* json_;
   std::string pointer_;

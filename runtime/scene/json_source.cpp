@@ -120,9 +120,13 @@ class PlaceFinder {
     skip_space();
     source_.map.places[pointer] = here();
     switch (peek()) {
-      case '{': return object(pointer);
-      case '[': return array(pointer);
-      case '"': quoted(); return;
+      case '{':
+        return object(pointer);
+      case '[':
+        return array(pointer);
+      case '"':
+        quoted();
+        return;
       default:
         while (offset_ < text_.size() && std::string(",]} \t\r\n").find(peek()) == std::string::npos) advance();
     }
@@ -190,9 +194,12 @@ std::string spelling_in(const Json& object, const std::string& key) {
 std::string escape_token(const std::string& key) {
   std::string token;
   for (const char c : key) {
-    if (c == '~') token += "~0";
-    else if (c == '/') token += "~1";
-    else token += c;
+    if (c == '~')
+      token += "~0";
+    else if (c == '/')
+      token += "~1";
+    else
+      token += c;
   }
   return token;
 }
@@ -223,7 +230,8 @@ void apply_override(JsonSource& source, const std::string& pointer, const std::s
     if (node->is_array()) {
       const bool digits = !token.empty() && token.size() < 9 && token.find_first_not_of("0123456789") == std::string::npos;
       const std::size_t size = node->size();
-      if (token == "-") token = std::to_string(size);
+      if (token == "-")
+        token = std::to_string(size);
       else if (!digits || std::stoul(token) >= size)
         fail(path + " has " + std::to_string(size) + " entries, and " + token + " is none of them");
       if (std::stoul(token) == size) node->push_back(nullptr);

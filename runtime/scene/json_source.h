@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 struct JsonSource {
   Json root;
-  SourceMap map;                                  ///< places of values
+  SourceMap map;                                     ///< places of values
   std::map<std::string, SourcePosition> key_places;  ///< places of keys, by the pointer of their value
 };
 

@@ -14,8 +14,10 @@ namespace {
 using Type = std::function<void(ReadContext&, const JsonObject&, MaterialDescription&)>;
 
 void read_albedo(ReadContext& context, const JsonObject& o, MaterialDescription& m, const char* key, double fallback) {
-  if (const auto node = o.find(key)) m.albedo = read_color(context, *node, SpectrumRole::Reflectance, kUnitInterval);
-  else m.albedo.spectrum = make_number_spectrum(fallback, o.node().pointer());
+  if (const auto node = o.find(key))
+    m.albedo = read_color(context, *node, SpectrumRole::Reflectance, kUnitInterval);
+  else
+    m.albedo.spectrum = make_number_spectrum(fallback, o.node().pointer());
 }
 
 // darts lets a texture stand for a roughness; only a constant one can be used here.
@@ -51,8 +53,7 @@ void read_dielectric(ReadContext& context, const JsonObject& o, MaterialDescript
   const auto ior = o.find("ior");
   m.ior = ior ? read_spectrum(context, *ior, SpectrumRole::Index, kPositive) : make_number_spectrum(1.5, o.node().pointer());
   m.alpha = o.number("alpha", 0, kUnitInterval);
-  if (const auto albedo = o.find("scatter_albedo"))
-    m.albedo = read_color(context, *albedo, SpectrumRole::Reflectance, kUnitInterval);
+  if (const auto albedo = o.find("scatter_albedo")) m.albedo = read_color(context, *albedo, SpectrumRole::Reflectance, kUnitInterval);
 }
 
 template <MaterialKind kKind>

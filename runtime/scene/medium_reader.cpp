@@ -26,7 +26,8 @@ SpectrumPtr read_phase_function(ReadContext& context, const JsonNode& node) {
     return nullptr;
   }
   if (type != "hg" && type != "henyey greenstein")
-    type_node.fail("no phase function has the type \"" + type_node.string() + "\"" + did_you_mean(type, {"hg", "henyey_greenstein", "isotropic"}));
+    type_node.fail("no phase function has the type \"" + type_node.string() + "\"" +
+                   did_you_mean(type, {"hg", "henyey_greenstein", "isotropic"}));
   return g ? read_g(context, *g) : nullptr;
 }
 
@@ -66,8 +67,7 @@ void read_coefficients(ReadContext& context, const JsonObject& o, MediumDescript
     if (m.sigma_t) total->fail_at_key("\"total\" and \"sigma_t\" are the same thing: give one of them");
     m.sigma_t = coefficient("total");
   }
-  if (const auto albedo = o.find("albedo"))
-    m.albedo = read_spectrum(context, *albedo, SpectrumRole::Coefficient, kUnitInterval);
+  if (const auto albedo = o.find("albedo")) m.albedo = read_spectrum(context, *albedo, SpectrumRole::Coefficient, kUnitInterval);
   // darts' own default, where its own key asks for it.
   if (o.has("total") && !m.sigma_s && !m.sigma_a && !m.albedo) m.albedo = make_number_spectrum(0.8, o.node().pointer());
   check_pair(o.node(), m);
@@ -90,9 +90,11 @@ MediumPtr read_inline(ReadContext& context, const JsonNode& node) {
   }
   const JsonNode type_node = node.child("type");
   if (type != "homogeneous" && type != "homogeneous hg")
-    type_node.fail("no medium has the type \"" + type_node.string() + "\"" + did_you_mean(type_node.string(), {"homogeneous", "homogeneous_hg", "vacuum"}));
-  const JsonObject o(node, "a homogeneous medium",
-                     {"type", "name", "sigma_t", "sigma_s", "sigma_a", "albedo", "total", "real fraction", "g", "phase function", "unit", "dyes"});
+    type_node.fail("no medium has the type \"" + type_node.string() + "\"" +
+                   did_you_mean(type_node.string(), {"homogeneous", "homogeneous_hg", "vacuum"}));
+  const JsonObject o(
+      node, "a homogeneous medium",
+      {"type", "name", "sigma_t", "sigma_s", "sigma_a", "albedo", "total", "real fraction", "g", "phase function", "unit", "dyes"});
   m->name = o.string("name", "");
   read_coefficients(context, o, *m);
   const auto g = o.find("g"), phase = o.find("phase function");

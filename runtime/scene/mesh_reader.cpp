@@ -29,7 +29,8 @@ MeshData positions_in_world(const RawMesh& mesh, const Affine& to_world) {
     if (mirrored) std::swap(t[1], t[2]);
     world.triangles.push_back(t);
     for (int i = 0; i < 3; i++) {
-      const Vec3d e1 = world.positions[t[(i + 1) % 3]] - world.positions[t[i]], e2 = world.positions[t[(i + 2) % 3]] - world.positions[t[i]];
+      const Vec3d e1 = world.positions[t[(i + 1) % 3]] - world.positions[t[i]],
+                  e2 = world.positions[t[(i + 2) % 3]] - world.positions[t[i]];
       const Vec3d n = cross(e1, e2);
       const double angle = std::atan2(length(n), dot(e1, e2));
       if (length(n) > 0) computed[t[i]] += normalize(n) * angle;

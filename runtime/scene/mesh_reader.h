@@ -20,7 +20,7 @@ struct RawMesh {
   std::vector<Vec3d> positions, normals;
   std::vector<std::array<double, 2>> uvs;
   std::vector<Face> faces;
-  std::vector<std::string> materials = {""};  // by `usemtl`; "" for faces before the first one
+  std::vector<std::string> materials = {""};                      // by `usemtl`; "" for faces before the first one
   std::vector<std::pair<std::string, std::vector<float>>> masks;  // per position
 };
 

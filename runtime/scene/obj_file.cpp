@@ -129,9 +129,7 @@ RawMesh read_obj(const JsonNode& node, const std::string& path) {
   callbacks.vertex_cb = [](void* data, float x, float y, float z, float) {
     static_cast<Loader*>(data)->mesh.positions.push_back({x, y, z});
   };
-  callbacks.normal_cb = [](void* data, float x, float y, float z) {
-    static_cast<Loader*>(data)->mesh.normals.push_back({x, y, z});
-  };
+  callbacks.normal_cb = [](void* data, float x, float y, float z) { static_cast<Loader*>(data)->mesh.normals.push_back({x, y, z}); };
   callbacks.texcoord_cb = [](void* data, float x, float y, float) { static_cast<Loader*>(data)->mesh.uvs.push_back({x, y}); };
   callbacks.index_cb = add_face;
   callbacks.usemtl_cb = use_material;

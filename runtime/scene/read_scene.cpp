@@ -25,8 +25,9 @@ SceneDescription read_scene_text(const std::string& text, const std::string& fil
   scene.directory = directory;
   ReadContext context{scene};
   const JsonNode root(source);
-  const JsonObject o(root, "a scene", {"camera", "sampler", "integrator", "background", "accelerator", "spectra", "media", "materials",
-                                       "surfaces", "film", "scene unit", "$schema"});
+  const JsonObject o(root, "a scene",
+                     {"camera", "sampler", "integrator", "background", "accelerator", "spectra", "media", "materials", "surfaces", "film",
+                      "scene unit", "$schema"});
   o.string("$schema", "");
 
   // What is named comes first, in the order in which names may refer to each other.

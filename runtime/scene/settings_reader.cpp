@@ -14,10 +14,18 @@ namespace {
 
 constexpr int kMaxSide = 65536;
 
-const std::vector<std::string> kIntegrators = {
-    "path tracer mats", "path tracer nee", "path tracer mis", "path tracer volumetric", "path tracer volumetric mats",
-    "path tracer volumetric nee", "path tracer volumetric mis", "fluorescent mats", "fluorescent nee", "fluorescent mis",
-    "normals", "ao"};
+const std::vector<std::string> kIntegrators = {"path tracer mats",
+                                               "path tracer nee",
+                                               "path tracer mis",
+                                               "path tracer volumetric",
+                                               "path tracer volumetric mats",
+                                               "path tracer volumetric nee",
+                                               "path tracer volumetric mis",
+                                               "fluorescent mats",
+                                               "fluorescent nee",
+                                               "fluorescent mis",
+                                               "normals",
+                                               "ao"};
 
 // `volumetric` alone is the report's basic tracer. darts' one-sample mixture has the same mean as MIS.
 std::optional<IntegratorKind> integrator_kind(const std::string& type) {

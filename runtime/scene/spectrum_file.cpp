@@ -11,9 +11,7 @@
 namespace stokes {
 
 std::vector<std::string> split_csv(const std::string& line) {
-  const char separator = line.find(',') != std::string::npos   ? ','
-                         : line.find(';') != std::string::npos ? ';'
-                                                               : ' ';
+  const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
   std::vector<std::string> fields(1);
   for (const char c : line) {
     const bool space = c == ' ' || c == '\t' || c == '\r';

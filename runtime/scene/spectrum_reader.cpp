@@ -226,14 +226,21 @@ double unscaled_value(const Spectrum& s, SpectrumRole role, double lambda) {
   const double um2 = lambda * lambda * 1e-6;
   switch (s.kind) {
     case SpectrumKind::Number:
-    case SpectrumKind::Constant: return s.value;
-    case SpectrumKind::Rgb: return std::max({s.rgb.x, s.rgb.y, s.rgb.z});
-    case SpectrumKind::Sampled: return sampled_value(s, role, lambda);
-    case SpectrumKind::Box: return lambda >= s.a && lambda < s.b ? s.value : 0;
-    case SpectrumKind::Gaussian: return s.value * std::exp(-0.5 * (lambda - s.a) * (lambda - s.a) / (s.b * s.b));
+    case SpectrumKind::Constant:
+      return s.value;
+    case SpectrumKind::Rgb:
+      return std::max({s.rgb.x, s.rgb.y, s.rgb.z});
+    case SpectrumKind::Sampled:
+      return sampled_value(s, role, lambda);
+    case SpectrumKind::Box:
+      return lambda >= s.a && lambda < s.b ? s.value : 0;
+    case SpectrumKind::Gaussian:
+      return s.value * std::exp(-0.5 * (lambda - s.a) * (lambda - s.a) / (s.b * s.b));
     case SpectrumKind::Blackbody:
-    case SpectrumKind::Illuminant: return 1;
-    case SpectrumKind::Cauchy: return s.a + s.b / um2;
+    case SpectrumKind::Illuminant:
+      return 1;
+    case SpectrumKind::Cauchy:
+      return s.a + s.b / um2;
     case SpectrumKind::Sellmeier: {
       double n2 = 1;
       for (int i = 0; i < 3; i++) n2 += s.sellmeier_b[i] * um2 / (um2 - s.sellmeier_c[i]);

@@ -108,8 +108,7 @@ RawMesh generate(const JsonObject& o) {
   options.pose = o.string("pose", "");
   if (const auto parameters = o.find("parameters")) {
     if (!parameters->is_object()) parameters->fail_type("an object of numbers");
-    for (const auto& item : parameters->json().items())
-      options.parameters.emplace_back(item.key(), parameters->child(item.key()).number());
+    for (const auto& item : parameters->json().items()) options.parameters.emplace_back(item.key(), parameters->child(item.key()).number());
   }
   try {
     return raw_mesh_of(generate_mesh(text, options));
@@ -118,7 +117,8 @@ RawMesh generate(const JsonObject& o) {
   }
 }
 
-RawMesh offset_mesh(ReadContext& context, const JsonObject& o, RawMesh& mesh, double offset, bool by_distance_field, const Affine& to_world) {
+RawMesh offset_mesh(ReadContext& context, const JsonObject& o, RawMesh& mesh, double offset, bool by_distance_field,
+                    const Affine& to_world) {
   const JsonNode node = o.require("offset");
   if (by_distance_field) {
     if (mesh.materials.size() > 1) node.fail("a mesh of several materials has no offset by distance field");

@@ -52,8 +52,7 @@ void read_image_texture(ReadContext& context, const JsonObject& o, const Leaf&, 
   t.scale = o.number("scale", 1, kNotNegative);
   const std::string wrap = o.string("wrap", "repeat"), filter = o.string("filter", "bilinear");
   if (wrap != "repeat" && wrap != "clamp") o.require("wrap").fail("expected \"repeat\" or \"clamp\", not \"" + wrap + "\"");
-  if (filter != "bilinear" && filter != "nearest")
-    o.require("filter").fail("expected \"bilinear\" or \"nearest\", not \"" + filter + "\"");
+  if (filter != "bilinear" && filter != "nearest") o.require("filter").fail("expected \"bilinear\" or \"nearest\", not \"" + filter + "\"");
   t.clamp = wrap == "clamp";
   t.nearest = filter == "nearest";
 }

@@ -7,9 +7,7 @@
 namespace stokes {
 namespace {
 
-Affine from_columns(Vec3d x, Vec3d y, Vec3d z, Vec3d o) {
-  return {{x.x, y.x, z.x, o.x, x.y, y.y, z.y, o.y, x.z, y.z, z.z, o.z}};
-}
+Affine from_columns(Vec3d x, Vec3d y, Vec3d z, Vec3d o) { return {{x.x, y.x, z.x, o.x, x.y, y.y, z.y, o.y, x.z, y.z, z.z, o.z}}; }
 
 bool is_singular(const Affine& a) {
   const double lengths = length(a.column(0)) * length(a.column(1)) * length(a.column(2));
@@ -75,7 +73,8 @@ Affine read_command(const JsonNode& node) {
   };
   if (has({"from", "at", "to", "up"})) return read_look_at(node);
   if (has({"o", "x", "y", "z"})) return read_axes(node);
-  const JsonObject o(node, "a transform", {"translate", "scale", "rotate", "matrix", "angle", "axis", "from", "at", "to", "up", "o", "x", "y", "z"});
+  const JsonObject o(node, "a transform",
+                     {"translate", "scale", "rotate", "matrix", "angle", "axis", "from", "at", "to", "up", "o", "x", "y", "z"});
   if (o.has("angle") || o.has("axis")) {
     if (node.size() != 2) node.fail("a rotation by \"angle\" needs \"axis\", and nothing else");
     return rotation(node, o.require("angle").number(), o.require("axis").vector());

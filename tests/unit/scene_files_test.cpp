@@ -114,12 +114,14 @@ TEST(SceneMesh, OffsetCountsTurnedFaces) {
 TEST(SceneMesh, OffsetByDistanceField) {
   const TemporaryFolder folder;
   folder.file("a.obj", kCube);
-  const SurfaceDescription s = folder.read(mesh_scene(R"(, "offset": -0.5, "offset method": "distance field", "transform": {"scale": 10})")).surfaces.at(0);
+  const SurfaceDescription s =
+      folder.read(mesh_scene(R"(, "offset": -0.5, "offset method": "distance field", "transform": {"scale": 10})")).surfaces.at(0);
   double largest = 0;
   for (const Vec3d& p : s.mesh->positions) largest = std::max(largest, s.transform.point(p).x);
   EXPECT_NEAR(largest, 9.5, 0.01);
   folder.file("a.obj", kTriangle + "f 1 2 3\n");
-  EXPECT_THAT(folder.error_of(mesh_scene(R"(, "offset": -0.5, "offset_method": "distance_field")")), testing::HasSubstr(": /surfaces/0/offset: "));
+  EXPECT_THAT(folder.error_of(mesh_scene(R"(, "offset": -0.5, "offset_method": "distance_field")")),
+              testing::HasSubstr(": /surfaces/0/offset: "));
 }
 
 TEST(SceneMesh, Generators) {
@@ -132,7 +134,8 @@ TEST(SceneMesh, Generators) {
   EXPECT_GT(parse(scene(R"("generator": "hand", "resolution": 6, "pose": "cupping")")).surfaces.at(0).mesh->triangles.size(), 100u);
   EXPECT_THAT(error_of(scene(R"("generator": "head", "resolution": 8, "parameters": {"pich": 5})")),
               testing::HasSubstr(": /surfaces/0: the head has no parameter \"pich\""));
-  EXPECT_THAT(error_of(scene(R"("generator": "head", "resolution": 0)")), testing::HasSubstr(": /surfaces/0/resolution: 0 is outside [0.3, 10]"));
+  EXPECT_THAT(error_of(scene(R"("generator": "head", "resolution": 0)")),
+              testing::HasSubstr(": /surfaces/0/resolution: 0 is outside [0.3, 10]"));
 }
 
 TEST(SceneSpectrumFile, TwoColumns) {
@@ -180,8 +183,12 @@ TEST(SceneReradiation, FirstRowIsIncoming) {
 TEST(SceneImage, EightBitFilesAreDecodedFromSrgb) {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& members) {
-    return folder.read(R"({"camera": {}, "surfaces": [{"type": "quad", "material": {"type": "lambertian", "albedo": {"type": "image", "filename": "a.ppm")" +
-                       members + "}}}]}").surfaces.at(0).material->albedo.texture;
+    return folder
+        .read(
+            R"({"camera": {}, "surfaces": [{"type": "quad", "material": {"type": "lambertian", "albedo": {"type": "image", "filename": "a.ppm")" +
+            members + "}}}]}")
+        .surfaces.at(0)
+        .material->albedo.texture;
   };
   const char bytes[] = "P6 2 1 255\n\xff\x80\x00\x00\x00\xff";
   folder.file("a.ppm", std::string(bytes, sizeof bytes - 1));
@@ -207,7 +214,8 @@ TEST(SceneImage, EnvironmentMap) {
   std::string pixels = "PF\n1 1\n-1.0\n";
   for (const float v : {2.0f, 0.5f, 0.25f}) pixels.append(reinterpret_cast<const char*>(&v), sizeof v);
   folder.file("sky.pfm", pixels);
-  const auto b = folder.read(R"({"camera": {}, "background": {"type": "environment", "filename": "sky.pfm", "rotate": 90, "scale": 2}})").background;
+  const auto b =
+      folder.read(R"({"camera": {}, "background": {"type": "environment", "filename": "sky.pfm", "rotate": 90, "scale": 2}})").background;
   ASSERT_NE(b.environment, nullptr);
   EXPECT_EQ(b.emission, nullptr);
   EXPECT_EQ(b.environment->rgb, (std::vector<float>{2.0f, 0.5f, 0.25f}));

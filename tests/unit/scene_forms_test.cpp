@@ -33,7 +33,10 @@ TEST(SceneForms, DefaultsOfAnEmptyScene) {
 }
 
 TEST(SceneForms, Camera) {
-  const CameraDescription c = parse(R"({"camera": {"transform": {"from": [0, 0, 5], "to": [0, 0, 0]}, "vfov": 30, "fdist": 800, "aperture": 0.5, "resolution": [640, 480.0], "medium": "vacuum"}})").camera;
+  const CameraDescription c =
+      parse(
+          R"({"camera": {"transform": {"from": [0, 0, 5], "to": [0, 0, 0]}, "vfov": 30, "fdist": 800, "aperture": 0.5, "resolution": [640, 480.0], "medium": "vacuum"}})")
+          .camera;
   EXPECT_EQ(c.vfov, 30);
   EXPECT_EQ(c.fdist, 800);
   EXPECT_EQ(c.aperture, 0.5);
@@ -47,7 +50,8 @@ TEST(SceneForms, Camera) {
 }
 
 TEST(SceneForms, CameraMediumByName) {
-  const SceneDescription s = parse(R"({"camera": {"medium": "water"}, "media": [{"type": "homogeneous", "name": "water", "sigma_a": 1, "sigma_s": 2}]})");
+  const SceneDescription s =
+      parse(R"({"camera": {"medium": "water"}, "media": [{"type": "homogeneous", "name": "water", "sigma_a": 1, "sigma_s": 2}]})");
   EXPECT_EQ(*s.camera.medium, s.media.at(0));
 }
 
@@ -94,7 +98,8 @@ TEST(SceneForms, GroupsNestTransforms) {
 
 TEST(SceneForms, IntegratorNames) {
   const auto kind = [](const std::string& name) { return parse(with("\"integrator\": {\"type\": \"" + name + "\"}")).integrator.kind; };
-  for (const char* name : {"path tracer mats", "path_tracer_mats", "path tracer volumetric", "path tracer volumetric mats", "fluorescent mats"})
+  for (const char* name :
+       {"path tracer mats", "path_tracer_mats", "path tracer volumetric", "path tracer volumetric mats", "fluorescent mats"})
     EXPECT_EQ(kind(name), IntegratorKind::Mats) << name;
   for (const char* name : {"path tracer nee", "path_tracer_nee", "path tracer volumetric nee", "path_tracer_volumetric_nee"})
     EXPECT_EQ(kind(name), IntegratorKind::Nee) << name;
@@ -105,7 +110,11 @@ TEST(SceneForms, IntegratorNames) {
 }
 
 TEST(SceneForms, IntegratorKeys) {
-  const IntegratorDescription i = parse(with(R"("integrator": {"type": "path_tracer_mis", "max_bounces": 1, "recursive": false, "russian roulette": false, "power": 1, "wavelengths per path": 8, "mode": "rgb"})")).integrator;
+  const IntegratorDescription i =
+      parse(
+          with(
+              R"("integrator": {"type": "path_tracer_mis", "max_bounces": 1, "recursive": false, "russian roulette": false, "power": 1, "wavelengths per path": 8, "mode": "rgb"})"))
+          .integrator;
   EXPECT_EQ(i.max_bounces, 1);
   EXPECT_EQ(i.russian_roulette, std::nullopt);
   EXPECT_EQ(i.wavelengths_per_path, 8);
@@ -116,7 +125,10 @@ TEST(SceneForms, IntegratorKeys) {
 
 TEST(SceneForms, SamplersFilmAndIgnoredKeys) {
   for (const char* type : {"independent", "stratified", "cmj", "sobol"}) {
-    const SceneDescription s = parse(with(std::string(R"("$schema": "x", "accelerator": {"type": "bbh", "split_method": "sah"}, "film": {"spectral": [300, 400, 10]}, "sampler": {"samples": 9, "seed": 4294967295, "type": ")") + type + "\"}"));
+    const SceneDescription s = parse(with(
+        std::string(
+            R"("$schema": "x", "accelerator": {"type": "bbh", "split_method": "sah"}, "film": {"spectral": [300, 400, 10]}, "sampler": {"samples": 9, "seed": 4294967295, "type": ")") +
+        type + "\"}"));
     EXPECT_EQ(s.samples, 9);
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.spectral_bins->count, 10);
@@ -132,7 +144,8 @@ TEST(SceneForms, Spectra) {
   EXPECT_EQ(background(R"({"type": "constant", "value": 2})").kind, SpectrumKind::Constant);
   EXPECT_EQ(background(R"({"type": "constant", "color": 2})").kind, SpectrumKind::Number);
   EXPECT_EQ(background(R"({"type": "constant", "color": [1, 2, 3]})").rgb.y, 2);
-  const Spectrum sampled = background(R"({"type": "sampled", "wavelengths": [400, 500], "values": [1, 2], "scale": 3, "extrapolate": "hold"})");
+  const Spectrum sampled =
+      background(R"({"type": "sampled", "wavelengths": [400, 500], "values": [1, 2], "scale": 3, "extrapolate": "hold"})");
   EXPECT_EQ(sampled.kind, SpectrumKind::Sampled);
   EXPECT_EQ(sampled.wavelengths, (std::vector<double>{400, 500}));
   EXPECT_EQ(sampled.scale, 3);
@@ -154,7 +167,8 @@ TEST(SceneForms, Spectra) {
 }
 
 TEST(SceneForms, IndicesOfRefraction) {
-  const MaterialDescription bk7 = material(R"({"type": "dielectric", "ior": {"type": "sellmeier", "B": [1.03961212, 0.231792344, 1.01046945], "C": [0.00600069867, 0.0200179144, 103.560653]}})");
+  const MaterialDescription bk7 = material(
+      R"({"type": "dielectric", "ior": {"type": "sellmeier", "B": [1.03961212, 0.231792344, 1.01046945], "C": [0.00600069867, 0.0200179144, 103.560653]}})");
   EXPECT_EQ(bk7.ior->kind, SpectrumKind::Sellmeier);
   EXPECT_EQ(bk7.ior->sellmeier_c[2], 103.560653);
   const MaterialDescription cauchy = material(R"({"type": "dielectric", "ior": {"type": "cauchy", "A": 1.5, "B": 0.004}})");
@@ -174,7 +188,8 @@ TEST(SceneForms, NamedThingsAreShared) {
 }
 
 TEST(SceneForms, Media) {
-  const MediumDescription naito = medium(R"({"type": "homogeneous", "name": "skin", "sigma_t": 10.4, "albedo": 0.94, "g": 0.9, "unit": "mm"})");
+  const MediumDescription naito =
+      medium(R"({"type": "homogeneous", "name": "skin", "sigma_t": 10.4, "albedo": 0.94, "g": 0.9, "unit": "mm"})");
   EXPECT_EQ(naito.sigma_t->value, 10.4);
   EXPECT_EQ(naito.albedo->value, 0.94);
   EXPECT_EQ(naito.g->value, 0.9);
@@ -187,7 +202,8 @@ TEST(SceneForms, Media) {
   EXPECT_EQ(medium(R"({"type": "homogeneous", "total": 3, "albedo": [0.1, 0.2, 0.3]})").sigma_t->value, 3);
   EXPECT_EQ(medium(R"({"type": "homogeneous", "total": 3})").albedo->value, 0.8);
   EXPECT_TRUE(medium(R"({"type": "vacuum"})").vacuum);
-  const MediumDescription dyed = medium(R"({"type": "homogeneous", "sigma_s": 0, "sigma_a": 0, "dyes": [{"absorption": 4, "emission": {"type": "gaussian", "mean": 520, "stddev": 20}, "yield": 0.9}]})");
+  const MediumDescription dyed = medium(
+      R"({"type": "homogeneous", "sigma_s": 0, "sigma_a": 0, "dyes": [{"absorption": 4, "emission": {"type": "gaussian", "mean": 520, "stddev": 20}, "yield": 0.9}]})");
   EXPECT_EQ(dyed.dyes.at(0).absorption->value, 4);
   EXPECT_EQ(dyed.dyes.at(0).yield, 0.9);
 }
@@ -240,7 +256,8 @@ TEST(SceneForms, Lights) {
 }
 
 TEST(SceneForms, Fluorescence) {
-  const MaterialDescription one = material(R"({"type": "diffuse_fluorescent", "absorption": {"type": "box", "range": [300, 400]}, "emission": {"type": "gaussian", "mean": 500, "stddev": 20}, "yield_type": "energy", "stokes": true})");
+  const MaterialDescription one = material(
+      R"({"type": "diffuse_fluorescent", "absorption": {"type": "box", "range": [300, 400]}, "emission": {"type": "gaussian", "mean": 500, "stddev": 20}, "yield_type": "energy", "stokes": true})");
   EXPECT_EQ(one.albedo.spectrum->value, 0);
   ASSERT_EQ(one.dyes.size(), 1u);
   EXPECT_FALSE(one.dyes[0].photon_yield);
@@ -261,17 +278,20 @@ TEST(SceneForms, Blends) {
   EXPECT_EQ(half.a->kind, MaterialKind::Metal);
   EXPECT_EQ(half.b->kind, MaterialKind::Lambertian);
   EXPECT_EQ(half.amount, 0.25);
-  const MaterialDescription fresnel = material(R"({"type": "blend", "a": {"type": "metal"}, "b": {"type": "lambertian"}, "amount": {"type": "fresnel", "ior": 2}})");
+  const MaterialDescription fresnel =
+      material(R"({"type": "blend", "a": {"type": "metal"}, "b": {"type": "lambertian"}, "amount": {"type": "fresnel", "ior": 2}})");
   EXPECT_EQ(fresnel.amount_texture->kind, TextureKind::Fresnel);
   EXPECT_EQ(fresnel.amount_texture->parameter, 2);
-  const MaterialDescription old = material(R"({"type": "fresnel_blend", "ior": 1.2, "refr": {"type": "lambertian"}, "refl": {"type": "metal"}})");
+  const MaterialDescription old =
+      material(R"({"type": "fresnel_blend", "ior": 1.2, "refr": {"type": "lambertian"}, "refl": {"type": "metal"}})");
   EXPECT_EQ(old.a->kind, MaterialKind::Lambertian);
   EXPECT_EQ(old.b->kind, MaterialKind::Metal);
   EXPECT_EQ(old.amount_texture->parameter, 1.2);
 }
 
 TEST(SceneForms, PaintedRegions) {
-  const MaterialDescription m = material(R"({"type": "painted", "base": {"type": "metal"}, "paint": {"type": "lambertian"}, "mask": {"type": "region", "shapes": [
+  const MaterialDescription m =
+      material(R"({"type": "painted", "base": {"type": "metal"}, "paint": {"type": "lambertian"}, "mask": {"type": "region", "shapes": [
     {"sphere": [1, 2, 3], "radius": 4}, {"box": [[1, 5, 0], [0, 0, 1]]}, {"capsule": [[0, 0, 0], [0, 1, 0]], "radius": 0.5}]}})");
   EXPECT_EQ(m.kind, MaterialKind::Blend);
   EXPECT_EQ(m.a->kind, MaterialKind::Metal);
@@ -282,12 +302,17 @@ TEST(SceneForms, PaintedRegions) {
   expect_near(shapes[1].a, {0, 0, 0});
   expect_near(shapes[1].b, {1, 5, 1});
   EXPECT_EQ(shapes[2].kind, RegionShapeDescription::Kind::Capsule);
-  EXPECT_EQ(material(R"({"type": "painted", "base": {"type": "metal"}, "paint": {"type": "metal"}, "mask": {"type": "mesh mask", "name": "lips"}})").amount_texture->mask_name, "lips");
+  EXPECT_EQ(
+      material(
+          R"({"type": "painted", "base": {"type": "metal"}, "paint": {"type": "metal"}, "mask": {"type": "mesh mask", "name": "lips"}})")
+          .amount_texture->mask_name,
+      "lips");
 }
 
 TEST(SceneForms, Textures) {
   const auto texture = [](const std::string& json) { return material(R"({"type": "lambertian", "albedo": )" + json + "}").albedo.texture; };
-  const TexturePtr checker = texture(R"({"type": "checker", "even": 0.2, "odd": {"type": "marble", "base": 0.9, "veins": [0.1, 0, 0], "scale": 3}, "scale": 0.1})");
+  const TexturePtr checker = texture(
+      R"({"type": "checker", "even": 0.2, "odd": {"type": "marble", "base": 0.9, "veins": [0.1, 0, 0], "scale": 3}, "scale": 0.1})");
   EXPECT_EQ(checker->kind, TextureKind::Checker);
   EXPECT_EQ(checker->scale, 0.1);
   EXPECT_EQ(checker->a.spectrum->value, 0.2);
@@ -298,12 +323,14 @@ TEST(SceneForms, Textures) {
   EXPECT_EQ(wire->parameter, 0.02);
   EXPECT_EQ(wire->b.spectrum->value, 0.1);
   // Lookup transforms map world to texture space; the description keeps texture to world.
-  for (const char* key : {R"("mapping3d": {"type": "transform", "transform": [{"scale": 2}]})", R"("xform": {"scale": 2})", R"("transform": {"scale": 2})"})
+  for (const char* key :
+       {R"("mapping3d": {"type": "transform", "transform": [{"scale": 2}]})", R"("xform": {"scale": 2})", R"("transform": {"scale": 2})"})
     expect_near(texture(std::string(R"({"type": "marble", )") + key + "}")->transform.point({1, 1, 1}), {0.5, 0.5, 0.5});
 }
 
 TEST(SceneForms, Surfaces) {
-  const SurfaceDescription quad = surface(R"({"type": "quad", "name": "q", "material": {"type": "metal"}, "size": [2, 3], "flip": true, "emit": 4})");
+  const SurfaceDescription quad =
+      surface(R"({"type": "quad", "name": "q", "material": {"type": "metal"}, "size": [2, 3], "flip": true, "emit": 4})");
   EXPECT_EQ(quad.kind, SurfaceKind::Quad);
   EXPECT_EQ(quad.width, 2);
   EXPECT_EQ(quad.height, 3);
@@ -312,9 +339,11 @@ TEST(SceneForms, Surfaces) {
   EXPECT_EQ(surface(R"({"type": "quad", "material": {"type": "metal"}, "size": 5})").height, 5);
   EXPECT_EQ(surface(R"({"type": "quad", "material": {"type": "metal"}})").width, 1);
   EXPECT_EQ(surface(R"({"type": "sphere", "material": {"type": "metal"}})").radius, 1);
-  const SurfaceDescription t = surface(R"({"type": "triangle", "material": {"type": "metal"}, "v0": [0, 0, 0], "v1": [1, 0, 0], "v2": [0, 1, 0]})");
+  const SurfaceDescription t =
+      surface(R"({"type": "triangle", "material": {"type": "metal"}, "v0": [0, 0, 0], "v1": [1, 0, 0], "v2": [0, 1, 0]})");
   EXPECT_EQ(t.mesh->positions.at(1).x, 1);
-  const SurfaceDescription d = surface(R"({"type": "triangle", "material": {"type": "metal"}, "positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "normals": [[0, 0, 2], [0, 0, 1], [0, 1, 1]], "uvs": [[0, 0], [1, 0], [0, 1]]})");
+  const SurfaceDescription d = surface(
+      R"({"type": "triangle", "material": {"type": "metal"}, "positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "normals": [[0, 0, 2], [0, 0, 1], [0, 1, 1]], "uvs": [[0, 0], [1, 0], [0, 1]]})");
   EXPECT_EQ(d.mesh->normals.at(0).z, 1);
   EXPECT_EQ(d.mesh->uvs.at(2)[1], 1);
 }

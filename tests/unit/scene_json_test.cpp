@@ -35,8 +35,7 @@ TEST(SceneJson, DuplicateKeys) {
 
 TEST(SceneJson, WhatIsNotJson) {
   EXPECT_EQ(error_of(with("\"background\": NaN")), "scene.json:2:15: error: NaN is not a number in JSON; values must be finite");
-  EXPECT_EQ(error_of(with("\"background\": Infinity")),
-            "scene.json:2:15: error: Infinity is not a number in JSON; values must be finite");
+  EXPECT_EQ(error_of(with("\"background\": Infinity")), "scene.json:2:15: error: Infinity is not a number in JSON; values must be finite");
   EXPECT_EQ(error_of(with("\"background\": -Infinity")),
             "scene.json:2:15: error: -Infinity is not a number in JSON; values must be finite");
   EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::StartsWith("scene.json:2:"));
@@ -67,7 +66,8 @@ TEST(SceneJson, MissingFile) {
 }
 
 TEST(SceneOverride, ReplacesAndCreates) {
-  const std::string text = R"({"camera": {"vfov": 30}, "integrator": {"max bounces": 3}, "surfaces": [{"type": "quad", "material": {"type": "lambertian"}}]})";
+  const std::string text =
+      R"({"camera": {"vfov": 30}, "integrator": {"max bounces": 3}, "surfaces": [{"type": "quad", "material": {"type": "lambertian"}}]})";
   const SceneDescription s = parse(text, {{"/camera/vfov", "40"},
                                           {"/integrator/max_bounces", "7"},
                                           {"/sampler/samples", "5"},

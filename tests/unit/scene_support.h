@@ -32,9 +32,7 @@ inline std::string error_of(const std::string& text, const SceneOverrides& overr
 inline std::string with(const std::string& member) { return "{\"camera\": {},\n" + member + "}"; }
 /// The first surface of a scene of one surface.
 inline SurfaceDescription surface(const std::string& json) { return parse(with("\"surfaces\": [" + json + "]")).surfaces.at(0); }
-inline MaterialDescription material(const std::string& json) {
-  return *surface(R"({"type": "quad", "material": )" + json + "}").material;
-}
+inline MaterialDescription material(const std::string& json) { return *surface(R"({"type": "quad", "material": )" + json + "}").material; }
 inline Spectrum background(const std::string& json) { return *parse(with("\"background\": " + json)).background.emission; }
 inline MediumDescription medium(const std::string& json) {
   return *surface(R"({"type": "quad", "material": {"type": "interface"}, "inside": )" + json + "}").inside;
@@ -45,8 +43,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("stokes-scene-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
+    path_ = std::filesystem::temp_directory_path() / ("stokes-scene-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
