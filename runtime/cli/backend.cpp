@@ -1,6 +1,9 @@
 // One face for the CPU reference and an OpenCL device, so that commands render without knowing which it is.
 #include "cli/backend.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "cli/version.h"
 #include "reference/reference.h"
 
@@ -9,7 +12,8 @@ namespace {
 
 class ReferenceBackend : public Backend {
  public:
-  ReferenceBackend(const CompiledScene& scene, int threads) : scene_(scene), threads_(threads) {}
+  ReferenceBackend(const CompiledScene& scene, int threads)
+      : scene_(scene), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
 
   int render(Film& film, std::uint32_t seed, int begin, int end, const std::function<bool(const BackendProgress&)>& progress) override {
     return reference::render_samples(scene_, film, seed, begin, end, threads_, [&](const reference::Progress& p) {

@@ -1,14 +1,32 @@
-// Ctrl-C and SIGTERM: the first is a request to stop, the second ends the process at once.
+// Ctrl-C and SIGTERM: before the first sample they end the process; then the first is a request to stop, the second ends at once.
 #include "cli/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "cli/exit_codes.h"
 
 namespace stokes {
 namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-void on_signal(int number) {
+void install(void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART | SA_NODEFER;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void end_at_once(int) {
+  constexpr char kMessage[] = "interrupted before the first sample: nothing to save\n";
+  if (write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kExitInterrupted);
+  _exit(kExitInterrupted);
+}
+
+void request_stop(int number) {
   if (stop_requested) {
     std::signal(number, SIG_DFL);
     std::raise(number);
@@ -18,13 +36,9 @@ void on_signal(int number) {
 
 }  // namespace
 
-void catch_interrupts() {
-  struct sigaction action = {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART | SA_NODEFER;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+void exit_on_interrupt() { install(end_at_once); }
+
+void catch_interrupts() { install(request_stop); }
 
 bool interrupted() { return stop_requested != 0; }
 

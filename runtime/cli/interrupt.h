@@ -1,9 +1,11 @@
-// Ctrl-C and SIGTERM: the first is a request to stop, the second ends the process at once.
+// Ctrl-C and SIGTERM: before the first sample they end the process; then the first is a request to stop, the second ends at once.
 #pragma once
 
 namespace stokes {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; any second one ends the process by the signal.
+/// From now on SIGINT and SIGTERM end the process with kExitInterrupted: there is nothing to save yet.
+void exit_on_interrupt();
+/// From now on the first of them only sets a flag; any second one ends the process by the signal.
 void catch_interrupts();
 bool interrupted();
 

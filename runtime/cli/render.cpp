@@ -210,7 +210,7 @@ int run_render(RenderOptions o) {
   const Plan plan = make_plan(o);
   require_writable(o.output.path);
   if (o.output.png) require_writable(png_beside(o.output.path));
-  catch_interrupts();
+  exit_on_interrupt();
 
   const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
   RenderJob job;
@@ -232,6 +232,7 @@ int run_render(RenderOptions o) {
     write_film(plan.checkpoint_path, record);
     checkpoint_is_ours = true;
   };
+  catch_interrupts();
   const RenderEnd end = run_job(job);
   progress.finish();
   return conclude(o, plan, job, end, timing, checkpoint_is_ours);

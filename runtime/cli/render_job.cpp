@@ -1,6 +1,7 @@
 // One render from its first sample to its last: time limits, interruptions, checkpoints.
 #include "cli/render_job.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "cli/interrupt.h"
@@ -43,7 +44,7 @@ RenderEnd run_job(RenderJob& job) {
   const int first = record.sample_end;
   const Tally tally(record, *job.backend);
   while (record.sample_end < job.sample_end) {
-    // A call ends at the job's end, or early: interrupted, out of time, or because a checkpoint is due and a pass is done.
+    // A call ends at the job's end, or early: interrupted, or at the end of a pass, out of time or because a checkpoint is due.
     const int call_begin = record.sample_end;
     const Clock::time_point call_start = Clock::now();
     bool time_up = false;
@@ -51,8 +52,11 @@ RenderEnd run_job(RenderJob& job) {
       const std::uint64_t done = static_cast<std::uint64_t>(call_begin - first) * pixels + p.samples_done;
       if (job.progress) job.progress->update(done, p.counters.rays + p.counters.shadow_rays);
       if (interrupted()) return false;
-      time_up = job.max_seconds > 0 && tally.elapsed() >= job.max_seconds && done >= pixels;
-      const bool save = job.checkpoint_seconds > 0 && since(call_start) >= job.checkpoint_seconds && p.samples_done >= pixels;
+      if (p.samples_done % pixels != 0) return true;
+      // The next pass will take about as long as those before: the limit is a promise.
+      const double next_pass = tally.elapsed() * static_cast<double>(pixels) / static_cast<double>(std::max<std::uint64_t>(1, done));
+      time_up = job.max_seconds > 0 && tally.elapsed() + next_pass > job.max_seconds;
+      const bool save = job.checkpoint_seconds > 0 && since(call_start) >= job.checkpoint_seconds;
       return !time_up && !save;
     });
     tally.settle(record, *job.backend);

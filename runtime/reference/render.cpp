@@ -80,16 +80,24 @@ void render_row(const World& world, Film& film, std::uint32_t seed, int row, int
     }
 }
 
-/// The samples [begin, end) of every pixel; each thread takes whole rows, so no pixel has two writers.
-void render_pass(const World& world, Film& film, std::uint32_t seed, int begin, int end, int threads) {
-  std::atomic<int> next_row{0};
-  const auto work = [&] {
-    for (int row = next_row++; row < film.height; row = next_row++) render_row(world, film, seed, row, begin, end);
+/// The samples [begin, end) of every pixel; each thread takes whole rows, so no pixel has two writers. The calling thread asks
+/// `keep_going` after each of its rows. Returns false when the pass was left unfinished; the film is then of no use.
+bool render_pass(const World& world, Film& film, std::uint32_t seed, int begin, int end, int threads,
+                 const std::function<bool(int rows_done)>& keep_going) {
+  std::atomic<int> next_row{0}, rows_done{0};
+  std::atomic<bool> stop{false};
+  const auto work = [&](bool asks) {
+    for (int row = next_row++; row < film.height && !stop; row = next_row++) {
+      render_row(world, film, seed, row, begin, end);
+      const int done = ++rows_done;
+      if (asks && done < film.height && !keep_going(done)) stop = true;
+    }
   };
   std::vector<std::thread> pool;
-  for (int i = 1; i < std::min(threads, film.height); i++) pool.emplace_back(work);
-  work();
+  for (int i = 1; i < std::min(threads, film.height); i++) pool.emplace_back(work, false);
+  work(true);
   for (std::thread& thread : pool) thread.join();
+  return rows_done == film.height;
 }
 
 }  // namespace
@@ -97,17 +105,30 @@ void render_pass(const World& world, Film& film, std::uint32_t seed, int begin, 
 int render_samples(const CompiledScene& scene, Film& film, std::uint32_t seed, int begin, int end, int threads,
                    const std::function<bool(const Progress&)>& progress) {
   const World world(scene);
-  const auto start = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); };
+  const Clock::time_point start = Clock::now();
   const auto pixels = std::uint64_t(film.width) * std::uint64_t(film.height);
-  // Passes of some ten thousand paths: long enough to be worth their threads, short enough to be stopped.
-  const int pass = static_cast<int>(std::max<std::uint64_t>(1, 65536 / std::max<std::uint64_t>(1, pixels)));
-  int done = begin;
+  const std::uint64_t total = pixels * std::uint64_t(end - begin);
+  const auto report = [&](std::uint64_t samples) { return !progress || progress({samples, total, since(start)}); };
+  // Passes grow while they are short, so that threads are worth starting and the answer to a stop is prompt.
+  constexpr double kLongPass = 0.1;
+  int done = begin, pass = 1;
+  std::vector<std::int64_t> whole_passes;
   while (done < end) {
     const int next = std::min(end, done + pass);
-    render_pass(world, film, seed, done, next, std::max(1, threads));
+    const std::uint64_t before = pixels * std::uint64_t(done - begin), row_samples = std::uint64_t(film.width) * std::uint64_t(next - done);
+    whole_passes = film.words;
+    const Clock::time_point pass_start = Clock::now();
+    const bool finished =
+        render_pass(world, film, seed, done, next, std::max(1, threads), [&](int rows) { return report(before + row_samples * std::uint64_t(rows)); });
+    if (!finished) {
+      film.words.swap(whole_passes);
+      break;
+    }
     done = next;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (progress && !progress({pixels * std::uint64_t(done - begin), pixels * std::uint64_t(end - begin), seconds})) break;
+    if (!report(pixels * std::uint64_t(done - begin))) break;
+    if (since(pass_start) < kLongPass) pass *= 2;
   }
   return done;
 }

@@ -1,0 +1,82 @@
+#!/bin/sh
+# Exit codes and messages: render farms act on the former, people on the latter.
+. "$(dirname -- "$0")/common.sh" "$@"
+
+# The command line itself.
+expect 0 "$STOKES" --help
+says out.txt 'render +Renders'
+expect 0 "$STOKES" render --help
+says out.txt '\[auto\]'
+expect 0 "$STOKES" --version
+says out.txt '^stokes [0-9]+\.[0-9]+\.[0-9]+ \('
+expect 64 "$STOKES"
+expect 64 "$STOKES" rendr x.json
+says err.txt .
+expect 64 "$STOKES" render
+expect 64 render --no-such-flag
+for flags in '--spp 0' '--spp 1.5' '--spp many' '--seed -1' '--size 16' '--size 0x4' '--size 4x' '--crop 0,0.5,0' '--crop 0.5,0.5,0,1' \
+  '--crop 0,17,0,4' '--crop 0,2.5,0,4' '--max-time fast' '--max-time -1s' '--max-time 0' '--integrator bdpt' '--mode mono' \
+  '--wavelengths-per-path 3' '--set nonsense' '--aov roughness' '--spectral 400:300:4' '--spectral 200:300:4' '--spectral 400:700' \
+  '--spectral 400:700:0' '--mode rgb --spectral 400:700:3' '--samples 4:2' '--samples 0:13' '--samples 5' '--resume --restart' '-o picture.jpg' \
+  '--progress loud' '--checkpoint now' '--threads -1' '--kernel-dir no/such/folder'; do
+  # shellcheck disable=SC2086
+  expect 64 render -o x.exr $flags
+  [ -s err.txt ] || fail "no message for $flags"
+done
+[ -e x.exr ] && fail 'a refused render left an output'
+
+# Scenes: one line in the manner of compilers.
+expect 2 "$STOKES" render no-such.json --device reference
+sed 's/"max bounces"/"max bouces"/' "$FIXTURES/small.json" >bad.json
+expect 2 "$STOKES" render bad.json --device reference
+says err.txt '^bad\.json:4:[0-9]+: error: .*max bounces'
+[ "$(wc -l <err.txt)" -eq 1 ] || fail 'a scene error takes more than one line'
+[ -e bad.exr ] && fail 'a bad scene left an output'
+expect 2 "$STOKES" check "$FIXTURES/small.json" bad.json
+says out.txt 'small.json: ok'
+expect 0 "$STOKES" check "$FIXTURES/small.json"
+expect 2 render --set /camera/vfov=900
+says err.txt 'vfov'
+
+# Devices.
+expect 3 "$STOKES" render "$FIXTURES/small.json" --device 'no such device' -o x.exr
+expect 3 env STOKES_DEVICE=nonesuch "$STOKES" render "$FIXTURES/small.json" -o x.exr
+says err.txt nonesuch
+expect 0 env STOKES_DEVICE=reference "$STOKES" render "$FIXTURES/small.json" -o x.exr
+
+# Memory: need and have.
+expect 4 render --size 65536x65536 --spp 1 -o big.exr
+says err.txt 'needs .*GiB.*free'
+
+# Outputs that cannot be written; found out before rendering, and the old file is intact.
+expect 5 render -o no/such/folder/x.exr
+says err.txt 'no/such/folder'
+mkdir folder.exr
+expect 5 render -o folder.exr
+ln -s /dev/full full.exr
+expect 5 render -o full.exr
+printf old >old.exr
+expect 5 sh -c 'ulimit -f 1; "$@"' sh "$STOKES" render "$FIXTURES/small.json" --device reference -q -o old.exr --size 64x64 --spp 1
+[ "$(cat old.exr)" = old ] || fail 'a failed write damaged the old file'
+[ -z "$(find . -name '*.tmp')" ] || fail 'a failed write left its temporary file'
+"$STOKES" check "$FIXTURES/small.json" >/dev/full 2>err.txt
+[ $? -eq 5 ] || fail 'a full standard output is no success'
+
+# Differences.
+expect 0 render -o a.exr
+expect 0 render -o b.exr
+expect 0 "$STOKES" compare a.exr b.exr --exact
+expect 0 render -o c.exr --seed 6
+expect 7 "$STOKES" compare a.exr c.exr
+expect 0 "$STOKES" compare a.exr c.exr --max-flip 0.9
+expect 0 render -o av.exr --aov variance --spp 64
+expect 0 render -o cv.exr --aov variance --spp 64 --seed 6
+expect 0 "$STOKES" compare av.exr cv.exr
+expect 0 render -o dv.exr --aov variance --spp 64 --set /materials/0/albedo=[0.6,0.2,0.1]
+expect 7 "$STOKES" compare av.exr dv.exr
+says out.txt DIFFER
+expect 2 "$STOKES" compare a.exr no-such.exr
+expect 0 render -o small.exr --size 8x6
+expect 2 "$STOKES" compare a.exr small.exr
+says err.txt 'different sizes'
+finish
