@@ -84,6 +84,15 @@ struct ReradiationMatrix {
   std::string filename;
 };
 
+struct MediumDescription;
+using MediumPtr = std::shared_ptr<const MediumDescription>;
+
+/// The layers under a skin's dielectric. No surface of a description that has been read still waits for them (skin_reader.h).
+struct SkinDescription {
+  MediumPtr epidermis, dermis;
+  double thickness = 0.06;  ///< of the epidermis, mm
+};
+
 struct MaterialDescription;
 using MaterialPtr = std::shared_ptr<const MaterialDescription>;
 struct MaterialDescription {
@@ -102,6 +111,7 @@ struct MaterialDescription {
   TexturePtr amount_texture;     ///< blend: texture amount; painted: mask
   std::vector<DyeDescription> dyes;
   std::shared_ptr<const ReradiationMatrix> matrix;
+  std::shared_ptr<const SkinDescription> skin;  ///< a dielectric of the type `skin`
   std::string pointer;
 };
 
@@ -117,7 +127,6 @@ struct MediumDescription {
   std::vector<DyeDescription> dyes;  ///< their absorption is sigma_a in 1/unit and adds to the medium's
   std::string pointer;
 };
-using MediumPtr = std::shared_ptr<const MediumDescription>;
 
 // ---- Surfaces ---------------------------------------------------------------------------------------------------
 enum class SurfaceKind { Quad, Sphere, Triangle, Mesh };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "scene/skin_reader.h"
 #include "scene/spectrum_reader.h"
 #include "scene/texture_reader.h"
 
@@ -164,6 +165,7 @@ const std::map<std::string, TypeEntry>& types() {
         {"blend", {{"a", "b", "amount"}, read_blend}},
         {"fresnel blend", {{"ior", "refl", "refr"}, read_fresnel_blend}},
         {"painted", {{"base", "paint", "mask"}, read_painted}},
+        {"skin", {skin_keys(), read_skin}},
     };
     auto& keys = t.at("diffuse fluorescent").keys;
     keys.insert(keys.end(), dye.begin(), dye.end());

@@ -13,6 +13,16 @@ std::string format_warning(const SourceMap& source, const std::string& pointer, 
   return line;
 }
 
+double ReadContext::units_per_millimetre() const {
+  switch (scene.scene_unit) {
+    case LengthUnit::Metre: return 1e-3;
+    case LengthUnit::Centimetre: return 0.1;
+    case LengthUnit::Millimetre:
+    case LengthUnit::None: break;
+  }
+  return 1;
+}
+
 void ReadContext::warn(const JsonNode& node, const std::string& message) {
   scene.warnings.push_back(format_warning(node.source(), node.pointer(), message));
 }

@@ -47,6 +47,8 @@ struct ReadContext {
   NameTable<MediumPtr> media{"medium"};
   NameTable<MaterialPtr> materials{"material"};
 
+  /// Scene units to the millimetre; 1 when the scene does not name its unit.
+  double units_per_millimetre() const;
   void warn(const JsonNode& node, const std::string& message);
   /// A file of the scene: relative names start at the scene's folder. Fails when it is no readable file.
   std::string file_path(const JsonNode& name) const;

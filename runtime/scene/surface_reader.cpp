@@ -9,6 +9,7 @@
 #include "scene/material_reader.h"
 #include "scene/medium_reader.h"
 #include "scene/mesh_reader.h"
+#include "scene/skin_reader.h"
 #include "scene/spectrum_reader.h"
 #include "scene/transform_reader.h"
 
@@ -98,7 +99,7 @@ void read_triangle(ReadContext& context, const JsonNode& node, const Affine& par
   context.scene.surfaces.push_back(s);
 }
 
-RawMesh generate(const JsonObject& o) {
+RawMesh generate(const ReadContext& context, const JsonObject& o) {
   const JsonNode name = o.require("generator");
   const std::string text = name.string();
   if (text != "head" && text != "hand")
@@ -111,7 +112,9 @@ RawMesh generate(const JsonObject& o) {
     for (const auto& item : parameters->json().items()) options.parameters.emplace_back(item.key(), parameters->child(item.key()).number());
   }
   try {
-    return raw_mesh_of(generate_mesh(text, options));
+    MeshData mesh = generate_mesh(text, options);
+    for (Vec3d& p : mesh.positions) p = p * context.units_per_millimetre();
+    return raw_mesh_of(mesh);
   } catch (const std::invalid_argument& error) {
     o.node().fail(error.what());
   }
@@ -149,7 +152,7 @@ RawMesh load_mesh(ReadContext& context, const JsonObject& o, const Affine& to_wo
     for (const char* key : {"resolution", "pose", "parameters"})
       if (const auto value = o.find(key)) value->fail_at_key("this key is for generated meshes");
 
-  RawMesh mesh = filename ? read_obj(*filename, context.file_path(*filename)) : generate(o);
+  RawMesh mesh = filename ? read_obj(*filename, context.file_path(*filename)) : generate(context, o);
   const std::size_t total = mesh.faces.size();
   if (const std::size_t dropped = drop_degenerate_faces(mesh))
     context.warn(o.node(), std::to_string(dropped) + " of " + std::to_string(total) + " triangles have no area and were dropped");
@@ -220,6 +223,9 @@ void read_surface(ReadContext& context, const JsonNode& node, const Affine& pare
 
 }  // namespace
 
-void read_surfaces(ReadContext& context, const JsonNode& list) { read_children(context, list, Affine{}); }
+void read_surfaces(ReadContext& context, const JsonNode& list) {
+  read_children(context, list, Affine{});
+  expand_skin(context);
+}
 
 }  // namespace stokes
