@@ -1,0 +1,101 @@
+#!/bin/bash
+# Runs the device tests and a parity of small scenes on every OpenCL runtime that can be had on Debian 12: PoCL, Intel's CPU runtime,
+# Oclgrind (which also finds races and accesses out of bounds) and Mesa's Rusticl. Intel's is installed from PyPI into a folder.
+# Usage: tests/portability.sh BUILD_FOLDER [pocl] [intel] [oclgrind] [rusticl]     (default: all; INTEL_DIR=/tmp/stokes-intel)
+# A runtime that is not installed counts as a failure when it was asked for by name, and is skipped otherwise.
+set -u
+source_dir=$(cd "$(dirname "$0")/.." && pwd)
+build=$(cd "${1:?usage: $0 BUILD_FOLDER [runtime...]}" && pwd) || exit 64
+shift
+runtimes=${*:-pocl intel oclgrind rusticl}
+asked=$#
+intel_dir=${INTEL_DIR:-/tmp/stokes-intel}
+vendors=$(mktemp -d)
+trap 'rm -rf "$vendors"' EXIT
+export XDG_CACHE_HOME=$vendors/cache
+failures=0
+
+# run NAME COMMAND...: runs it and remembers a failure.
+run() {
+  echo "== $1: ${*:2}"
+  "${@:2}" || { echo "== $1: FAILED ($?)"; failures=$((failures + 1)); }
+}
+
+missing() {
+  echo "== $1: not installed"
+  [ "$asked" -eq 0 ] || failures=$((failures + 1))
+}
+
+# only FILE_OR_LIBRARY...: makes these the only OpenCL vendors.
+only() {
+  rm -f "$vendors"/*.icd
+  local library
+  for library in "$@"; do echo "$library" > "$vendors/$(basename "$library").icd"; done
+  export OCL_ICD_VENDORS=$vendors
+}
+
+device_tests() { "$build/tests/unit/test_device" --gtest_brief=1 --gtest_filter="${1:-*}"; }
+
+parity() {
+  local scene
+  for scene in "$@"; do
+    "$build/stokes" parity "$source_dir/scenes/$scene.json" --devices 0:0 --spp 64 --size 32x32 || return
+  done
+}
+
+# Intel's wheel brings a newer TBB than Debian's, which Embree loads first: ours must find the newer one, and only that.
+install_intel() {
+  [ -e "$intel_dir/lib/libintelocl.so" ] && return
+  python3 -m venv "$intel_dir" && "$intel_dir/bin/pip" install -q intel-opencl-rt intel-cmplr-lib-rt || return
+  mkdir -p "$intel_dir/tbb" && ln -sf "$intel_dir"/lib/libtbb.so.12 "$intel_dir/tbb/"
+}
+
+# Oclgrind exits 0 whatever it finds: its log is read.
+under_oclgrind() {
+  local log
+  log=$(mktemp)
+  # Its interpreter does not know an intrinsic that LLVM's inliner leaves behind, so no passes run.
+  oclgrind --build-options -disable-llvm-passes --log "$log" --data-races "$@"
+  local status=$?
+  if [ -s "$log" ]; then
+    head -40 "$log"
+    status=1
+  fi
+  rm -f "$log"
+  return $status
+}
+
+for runtime in $runtimes; do
+  unset RUSTICL_ENABLE LD_LIBRARY_PATH
+  case $runtime in
+    pocl)
+      [ -e /etc/OpenCL/vendors/pocl.icd ] || { missing pocl; continue; }
+      only "$(cat /etc/OpenCL/vendors/pocl.icd)"
+      run pocl device_tests
+      run pocl parity jensen_box fog_box
+      ;;
+    intel)
+      install_intel || { missing intel; continue; }
+      only "$intel_dir/lib/libintelocl.so"
+      export LD_LIBRARY_PATH=$intel_dir/tbb
+      run intel device_tests
+      run intel parity jensen_box fog_box
+      ;;
+    oclgrind)
+      command -v oclgrind > /dev/null || { missing oclgrind; continue; }
+      # Simulated: without the tests that spin for seconds, and no caches, whose binaries are not checked.
+      run oclgrind under_oclgrind "$build/tests/unit/test_device" --gtest_brief=1 --gtest_filter="DeviceTest.*-*Pass*:*Cache*:*BuildLog*"
+      run oclgrind under_oclgrind "$build/stokes" render "$source_dir/scenes/jensen_box.json" --size 8x8 --spp 2 -q -o "$vendors/oclgrind.exr"
+      ;;
+    rusticl)
+      [ -e /etc/OpenCL/vendors/rusticl.icd ] || { missing rusticl; continue; }
+      only "$(cat /etc/OpenCL/vendors/rusticl.icd)"
+      export RUSTICL_ENABLE=llvmpipe
+      # The render kernel takes it minutes to build: the machinery is tested, not the image.
+      run rusticl device_tests "DeviceTest.*"
+      ;;
+    *) echo "unknown runtime $runtime"; exit 64 ;;
+  esac
+done
+[ "$failures" -eq 0 ] && echo "portable: $runtimes"
+exit $((failures > 0))
