@@ -183,14 +183,27 @@ STOKES_FN int leaf_any(const __global float* leaves, uint leaf, const BvhRay* ra
 STOKES_FN ulong stack_entry(float near, uint child) { return ((ulong)as_uint(near) << 32) | child; }
 STOKES_FN float entry_near(ulong entry) { return as_float((uint)(entry >> 32)); }
 
+/// Asks for the first lines of a child that will be visited soon: walks through large trees wait for memory more than anything.
+STOKES_FN void prefetch_child(const __global float* nodes, const __global float* leaves, uint child) {
+#if STOKES_X86
+  const __global float* first = (child & STOKES_LEAF_BIT) ? leaves + (ulong)((child & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10)
+                                                          : nodes + (ulong)child * (BVH_WIDTH * 8);
+  STOKES_UNROLL for (int line = 0; line < 4; line++) __builtin_prefetch((const void*)(ulong)(first + 16 * line));
+#else
+  (void)nodes, (void)leaves, (void)child;
+#endif
+}
+
 /// Pushes the met children (at least two) so that the nearest is on top, and returns the new top.
-STOKES_FN int push_sorted(ulong* stack, int top, uint met, const Wide* near, const __global uint* children) {
+STOKES_FN int push_sorted(const __global float* nodes, const __global float* leaves, ulong* stack, int top, uint met,
+                          const Wide* near, const __global uint* children) {
   float nears[BVH_WIDTH];
   STORE_WIDE(*near, nears);
   const int bottom = top;
   for (; met != 0u; met &= met - 1u) {
     const uint k = lowest_lane(met);
     const ulong entry = stack_entry(nears[k], children[k]);
+    prefetch_child(nodes, leaves, children[k]);
     int i = top++;
     for (; i > bottom && stack[i - 1] < entry; i--) stack[i] = stack[i - 1];
     stack[i] = entry;
@@ -225,7 +238,7 @@ STOKES_NOINLINE void traverse_closest(const __global float* nodes, const __globa
         current = swap ? children[1] : children[0];
         continue;
       }
-      top = push_sorted(stack, top, met, &near, children) - 1;
+      top = push_sorted(nodes, leaves, stack, top, met, &near, children) - 1;
       current = (uint)stack[top];
     }
     if (current & STOKES_LEAF_BIT) leaf_closest(leaves, current, &ray, exclude, hit);
