@@ -80,6 +80,8 @@ BsdfSample dielectric_sample(const Bsdf& bsdf, Vec3d wo, Random& random) {
   double cosine_beyond;
   const bool reflects = choice < fresnel_dielectric(dot(o, h), bsdf.eta, &cosine_beyond);
   const Vec3d wi = normalize(frame.to_world(reflects ? mirror(o, h) : refract(o, h, bsdf.eta, cosine_beyond)));
+  // A reflection that ends below the surface, or a refraction above it, is lost; it must not pass for the other.
+  if ((dot(wi, bsdf.n) > 0) != reflects) return {};
   const double pdf = dielectric_pdf(bsdf, wo, wi);
   if (pdf <= 0) return {};
   return {wi, dielectric_eval(bsdf, wo, wi) / pdf, pdf, reflects ? 1 : bsdf.eta};

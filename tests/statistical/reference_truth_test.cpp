@@ -35,6 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Furnace, ReferenceTruth, testing::ValuesIn(furnace_case
 INSTANTIATE_TEST_SUITE_P(Irradiance, ReferenceTruth, testing::ValuesIn(irradiance_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Boundary, ReferenceTruth, testing::ValuesIn(boundary_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Slab, ReferenceTruth, testing::ValuesIn(slab_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Chromatic, ReferenceTruth, testing::ValuesIn(chromatic_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Fluorescence, ReferenceTruth, testing::ValuesIn(fluorescence_cases()), case_name);
 
 }  // namespace

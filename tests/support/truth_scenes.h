@@ -52,5 +52,6 @@ std::vector<TruthCase> irradiance_cases();    ///< each type of light by each in
 std::vector<TruthCase> boundary_cases();      ///< Fresnel sheets, coated Lambertians
 std::vector<TruthCase> slab_cases();          ///< slabs and half spaces
 std::vector<TruthCase> fluorescence_cases();  ///< patches, plates, enclosures, media
+std::vector<TruthCase> chromatic_cases();     ///< chromatic media, dispersion, colours, environments
 
 }  // namespace stokes::tests

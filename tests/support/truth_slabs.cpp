@@ -93,6 +93,20 @@ TruthCase coated(const truth::CoatedLambertian& t, ColorMode mode) {
   return c;
 }
 
+/// A shining floor under a refracting surface: radiance falls by n^2 on the way out. (Paths that enter and leave again cannot tell.)
+TruthCase sunken_light(double n, double degrees, double fresnel) {
+  TruthCase c;
+  c.name = "sunken_light_n" + decimal(n) + "_at_" + decimal(degrees);
+  c.source = "closed form: (1 - Rs) Le / n^2";
+  c.scene = empty_scene(parallel_camera(degrees, 1, 0.1, kPixels), IntegratorKind::Mis, ColorMode::Rgb);
+  SurfaceDescription floor = horizontal_square(-1, 4000, black());
+  floor.emit = number(1);
+  c.scene.surfaces = {horizontal_square(0, 4000, dielectric(n)), floor};
+  c.samples = 1000;
+  c.measurements = {grey(ColorMode::Rgb, (1 - fresnel) / (n * n))};
+  return c;
+}
+
 }  // namespace
 
 std::vector<TruthCase> slab_cases() {
@@ -119,6 +133,8 @@ std::vector<TruthCase> boundary_cases() {
   }
   for (const truth::CoatedLambertian& t : truth::kCoatedLambertians) cases.push_back(coated(t, ColorMode::Rgb));
   cases.push_back(coated(truth::kCoatedLambertians[3], ColorMode::Spectral));
+  cases.push_back(sunken_light(1.5, 0, 0.04));
+  cases.push_back(sunken_light(1.33, 60, 0.0591255992));
   return cases;
 }
 
