@@ -37,8 +37,8 @@ STOKES_FN Real meet_quad(const __global Quad* quad, Real3 o, Real3 d) {
 /// Distance along the unit direction d to a sphere round the origin, or 0.
 ///
 /// The discriminant comes from the chord's distance to the centre, not from b^2 - c, and the smaller root from the larger
-/// (Haines, Guenther and Akenine-Moeller 2019). A ray that starts on the sphere
-/// and heads inside meets its far side at the end of the chord, 2 b; heading outside it meets nothing.
+/// (Haines, Guenther and Akenine-Moeller 2019). A ray that starts on the sphere, offset to its inside, meets the far side at the
+/// end of the chord, 2 b; offset to its outside it meets nothing.
 STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Mask on_it) {
   const Real b = -dot3(o, d);
   const Real3 chord = madd3(o, d, b);
@@ -50,7 +50,8 @@ STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Mask on_it) {
   const Real other = c / q;
   const Real first = min_real(q, other), last = max_real(q, other);
   Real t = first > real(0.0f) ? first : last;
-  t = on_it ? b + b : t;
+  const Real chord_end = b > real(0.0f) ? b + b : last;
+  t = on_it ? (c < real(0.0f) ? chord_end : real(0.0f)) : t;
   const Mask met = (on_it | (discriminant >= real(0.0f))) & (t > real(0.0f));
   return met ? t : real(0.0f);
 }

@@ -258,7 +258,8 @@ STOKES_FN Real scalar_eval(const SceneView* view, Int texture, const SurfacePoin
       result = region ? (inside ? real(1.0f) : real(0.0f)) : result;
     }
     if (any(vertex)) result = vertex ? vertex_mask(view, index, point, vertex) : result;
-    open = open & chosen;
+    // Lanes that have arrived at a number wait for the others.
+    open = open & (chosen | !textured);
   }
   const Mask plain = open & (ref >= integer(0));
   return plain ? table_scalar(view, plain ? ref : integer(0)) : result;

@@ -80,7 +80,10 @@ TEST(KernelSpectrum, RgbModeReadsChannels) {
   program.run_with_scene("probe_spectrum", 1, tables, channels, Out{values});
   EXPECT_EQ(values, (std::vector<float>{0.1f, 0.2f, 0.3f, 1, 2, 3, 0.3f, 1}));
   program.run_with_scene("probe_wavelengths", 1, channels, Out{lambdas}, Out{inverse}, Out{rgb});
-  for (std::size_t i = 0; i < 24; i++) EXPECT_EQ(lambdas[i], float(i % 3)), EXPECT_EQ(inverse[i], 1.0f);
+  for (std::size_t i = 0; i < 24; i++) {
+    EXPECT_EQ(lambdas[i], float(i % 3));
+    EXPECT_EQ(inverse[i], 1.0f);
+  }
 }
 
 TEST(KernelSpectrum, DistributionsAreSampledByTheirDensity) {
@@ -103,7 +106,9 @@ TEST(KernelSpectrum, DistributionsAreSampledByTheirDensity) {
     }
     // The mean of 1/pdf is the length of the support.
     const double support[] = {500, 90, 0, 1};
-    if (d != 2) EXPECT_NEAR(inverse / support[d], 1, 2e-3) << d;
+    if (d != 2) {
+      EXPECT_NEAR(inverse / support[d], 1, 2e-3) << d;
+    }
   }
 }
 
