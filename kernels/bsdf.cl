@@ -102,10 +102,9 @@ STOKES_FN void sample_phong_lobes(const Bsdf* b, Real3 wo, Real u1, Real u2, Mas
 
 STOKES_FN void sample_rough_dielectric(const Bsdf* b, Real3 wo, Real u1, Real u2, Real u3, Mask m, BsdfSample* s) {
   const Real alpha = m ? b->parameter : real(1.0f), eta = m ? b->eta : real(1.5f);
-  const Real3 wi = rough_dielectric_sample(alpha, eta, wo, u1, u2, u3);
-  Real pdf;
-  const Real value = rough_dielectric_eval(alpha, eta, wo, wi, &pdf);
-  adopt_sample(s, m, wi, pdf > real(0.0f) ? value / pdf : real(0.0f), pdf);
+  Real weight, pdf;
+  const Real3 wi = rough_dielectric_sample(alpha, eta, wo, u1, u2, u3, &weight, &pdf);
+  adopt_sample(s, m, wi, weight, pdf);
 }
 
 /// Samples wi in the masked lanes. A weight of 0 ends the path; a reflection below or a refraction above the surface counts as such.

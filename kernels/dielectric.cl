@@ -46,12 +46,19 @@ STOKES_FN Real rough_dielectric_pdf(Real alpha, Real eta, Real3 wo, Real3 wi) {
   return pdf;
 }
 
-/// Rough: picks a facet that wo sees, then reflects with its Fresnel probability (u3) or refracts.
-STOKES_FN Real3 rough_dielectric_sample(Real alpha, Real eta, Real3 wo, Real u1, Real u2, Real u3) {
+/// Rough: picks a facet that wo sees, then reflects with its Fresnel probability (u3) or refracts; *weight receives value over density.
+///
+/// A tilted facet may reflect below the surface or refract above it. Such light is lost: other facets would explain its direction the
+/// other way round, so evaluating it there would be wrong.
+STOKES_FN Real3 rough_dielectric_sample(Real alpha, Real eta, Real3 wo, Real u1, Real u2, Real u3, Real* weight, Real* pdf) {
   const Real3 h = ggx_sample(alpha, wo, u1, u2);
   Real cos_t;
   const Real f = fresnel_dielectric(clamp_real(dot3(wo, h), real(0.0f), real(1.0f)), eta, &cos_t);
-  const Real3 wi = select3(u3 < f, reflect3(wo, h), refract3(wo, h, eta, cos_t));
+  const Mask reflects = u3 < f;
+  const Real3 wi = select3(reflects, reflect3(wo, h), refract3(wo, h, eta, cos_t));
+  const Real value = rough_dielectric_eval(alpha, eta, wo, wi, pdf);
+  const Mask kept = (*pdf > real(0.0f)) & ((reflects & (wi.z > real(0.0f))) | (!reflects & (wi.z < real(0.0f))));
+  *weight = kept ? value / *pdf : real(0.0f);
   return wi;
 }
 #endif

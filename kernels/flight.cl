@@ -42,6 +42,16 @@ STOKES_FN Mask inside_ball(const SceneView* view, PathState* path, Real length) 
   return inside | (asking & (length * length < path->ball_radius2));
 }
 
+/// Whether a way is so short for sigma_t that transmittance hardly changes along it.
+STOKES_FN Mask is_thin(Real sigma_t, Real length) { return !(sigma_t * length > real(1e-4f)); }
+
+/// int_0^length e^(-sigma_t x) dx; 0 for a way without end through nothing.
+STOKES_FN Real seen_length(Real sigma_t, Real length) {
+  const Real thick = (real(1.0f) - exp_real(-sigma_t * length)) / sigma_t;
+  const Real thin = length < real(STOKES_FAR) ? length * fma(real(-0.5f) * sigma_t, length, real(1.0f)) : real(0.0f);
+  return is_thin(sigma_t, length) ? thin : thick;
+}
+
 /// The fluorescent branch of the masked lanes' flights, at media with dyes; `length` is the way to the surface, or STOKES_FAR.
 ///
 /// Along the way the dyes give off light by chance: with probability q = w / (1 + w) the path looks for it at a point drawn as a free flight
@@ -59,27 +69,34 @@ STOKES_FN Mask dyes_along(const SceneView* view, PathState* path, Real length, M
   const Real u_branch = path_random(path, lanes), u_dye = path_random(path, lanes), u_place = path_random(path, lanes), u_lambda = path_random(path, lanes);
   const DyeChoice c = dye_choose(view, t, first, count, u_dye, lanes, 0);
 
-  // int of the transmittance along the way, for the hero.
-  const Real passed = exp_real(-sigma_t * length);
-  const Mask absorbs = sigma_t * length > real(1e-4f);
-  const Real reach = absorbs ? (real(1.0f) - passed) / sigma_t : length;
+  // Per slot, were it the hero: the branch's probability. A dye's light is estimated by its emission times the way that it is seen through.
   const Spectrum ones = spectrum_constant(real(1.0f));
   const Real beta = beta_sum(t, &ones);
-  const Real w = beta > real(0.0f) ? c.total / beta * reach : real(0.0f);
-  const Real q = w / (real(1.0f) + w);
-  const Mask found = lanes & (u_branch < q);
-  throughput_scale(t, real(1.0f) / (real(1.0f) - q), lanes & !found);
+  const Real glow = beta > real(0.0f) ? c.total / beta : real(0.0f);
+  Spectrum q;
+  FOR_EACH_WAVELENGTH(k) {
+    const Real w = glow * seen_length(medium_sigma_t(&path->medium, k), length);
+    q.v[k] = w / (real(1.0f) + w);
+  }
+  const Real hero_q = hero_value(t, &q);
+  const Mask found = lanes & (u_branch < hero_q);
+  throughput_scale(t, real(1.0f) / (real(1.0f) - hero_q), lanes & !found);
+  FOR_EACH_WAVELENGTH(k) {
+    const Real ratio = (real(1.0f) - q.v[k]) / (real(1.0f) - hero_q);
+    t->density.v[k] = (lanes & !found) ? t->density.v[k] * ratio : t->density.v[k];
+  }
   if (!any(found)) return found;
 
-  // The place, and per slot transmittance and density there.
-  const Real x = absorbs ? -log_real(fma(-u_place, real(1.0f) - passed, real(1.0f))) / sigma_t : u_place * length;
+  // The place, with density q T(x) / (int of T along the way); T is the transmittance.
+  const Real seen = seen_length(sigma_t, length);
+  const Real x = is_thin(sigma_t, length) ? u_place * length : -log_real(fma(-u_place * seen, sigma_t, real(1.0f))) / sigma_t;
   *place = found ? min_real(x, length) : *place;
-  const Real hero_density = absorbs ? sigma_t * exp_real(-sigma_t * x) / (real(1.0f) - passed) : real(1.0f) / length;
+  const Real hero_density = hero_q * exp_real(-sigma_t * x) / seen;
   FOR_EACH_WAVELENGTH(k) {
     const Real s = medium_sigma_t(&path->medium, k);
-    const Real left = exp_real(-s * x);
-    const Real density = s * length > real(1e-4f) ? s * left / (real(1.0f) - exp_real(-s * length)) : real(1.0f) / length;
-    t->beta.v[k] = found ? t->beta.v[k] * left / (hero_density * q) : t->beta.v[k];
+    const Real transmitted = exp_real(-s * x);
+    const Real density = q.v[k] * transmitted / max_real(seen_length(s, length), real(1e-30f));
+    t->beta.v[k] = found ? t->beta.v[k] * transmitted / hero_density : t->beta.v[k];
     t->density.v[k] = found ? t->density.v[k] * density / hero_density : t->density.v[k];
   }
   Throughput excited = *t;

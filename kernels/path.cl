@@ -93,7 +93,7 @@ STOKES_FN void path_start(const SceneView* view, PathState* path, Uint x, Uint y
   Spectrum lambda, inverse_pdf;
   camera_wavelengths(view, u, &lambda, &inverse_pdf);
   path->origin = select3(fresh, origin, path->origin);
-  path->vertex = path->origin;
+  path->vertex = select3(fresh, origin, path->vertex);
   path->direction = select3(fresh, direction, path->direction);
   path->exclude = fresh ? integer(-1) : path->exclude;
   path->pdf = fresh ? real(-1.0f) : path->pdf;

@@ -42,6 +42,24 @@ STOKES_FN Mask sides_agree(const Vertex* v, Real3 world, Real3 wi) {
   return (front & up) | (!front & !up);
 }
 
+/// Value and density of a medium's phase functions. In chromatic media each wavelength has its own: *pdf receives their mean, weighted by
+/// the path's densities, which does not depend on which wavelength is the hero; a heuristic's weights must not either.
+STOKES_FN Spectrum phase_eval(const PathState* path, Real cosine, Real* pdf) {
+  if (!SCENE_HAS_CHROMATIC_MEDIA) {
+    *pdf = phase_hg_pdf(path->medium.g.v[0], cosine);
+    return spectrum_constant(*pdf);
+  }
+  Spectrum p;
+  Real sum = real(0.0f), total = real(0.0f);
+  FOR_EACH_WAVELENGTH(k) {
+    p.v[k] = phase_hg_eval(path->medium.g.v[k], cosine);
+    sum = fma(path->throughput.density.v[k], p.v[k], sum);
+    total += path->throughput.density.v[k];
+  }
+  *pdf = sum / total;
+  return p;
+}
+
 /// BSDF times |cosine|, or the phase function, towards the world direction wi; *pdf receives the density of vertex_sample.
 STOKES_FN Spectrum vertex_eval(const SceneView* view, const PathState* path, const Vertex* v, Real3 wi, Real* pdf) {
   const Real3 lobe = to_local(v->axis, v->tangent, v->bitangent, wi);
@@ -49,13 +67,10 @@ STOKES_FN Spectrum vertex_eval(const SceneView* view, const PathState* path, con
   Spectrum f = bsdf_eval(view, &v->bsdf, &path->throughput.lambda, v->wo, lobe, surface, pdf);
   *pdf = surface ? *pdf : real(0.0f);
   if (SCENE_HAS_MEDIA && any(v->in_medium)) {
-    const Real hero_g = SCENE_HAS_CHROMATIC_MEDIA ? hero_value(&path->throughput, &path->medium.g) : path->medium.g.v[0];
-    const Real hero = phase_hg_eval(hero_g, lobe.z);
-    *pdf = v->in_medium ? hero : *pdf;
-    FOR_EACH_WAVELENGTH(k) {
-      const Real p = SCENE_HAS_CHROMATIC_MEDIA ? phase_hg_eval(path->medium.g.v[k], lobe.z) : hero;
-      f.v[k] = v->in_medium ? p : f.v[k];
-    }
+    Real phase_density;
+    const Spectrum phase = phase_eval(path, lobe.z, &phase_density);
+    *pdf = v->in_medium ? phase_density : *pdf;
+    f = select_spectrum(v->in_medium, phase, f);
   }
   return f;
 }
@@ -71,13 +86,15 @@ STOKES_FN BsdfSample vertex_sample(const SceneView* view, const PathState* path,
   if (SCENE_HAS_MEDIA && any(v->in_medium)) {
     const Real g = SCENE_HAS_CHROMATIC_MEDIA ? hero_value(&path->throughput, &path->medium.g) : path->medium.g.v[0];
     const Real3 wi = phase_hg_sample(g, u1, u2);
-    const Real pdf = phase_hg_pdf(g, wi.z);
+    Real pdf;
+    const Spectrum phase = phase_eval(path, wi.z, &pdf);
     s.wi = select3(v->in_medium, wi, s.wi);
     s.pdf = v->in_medium ? pdf : s.pdf;
+    const Real scale = SCENE_HAS_CHROMATIC_MEDIA ? real(1.0f) / phase_hg_eval(g, wi.z) : real(1.0f);
     FOR_EACH_WAVELENGTH(k) {
-      const Real p = SCENE_HAS_CHROMATIC_MEDIA ? phase_hg_eval(path->medium.g.v[k], wi.z) / pdf : real(1.0f);
-      s.weight.v[k] = v->in_medium ? p : s.weight.v[k];
-      density_ratio->v[k] = v->in_medium ? p : real(1.0f);
+      const Real ratio = SCENE_HAS_CHROMATIC_MEDIA ? phase.v[k] * scale : real(1.0f);
+      s.weight.v[k] = v->in_medium ? ratio : s.weight.v[k];
+      density_ratio->v[k] = v->in_medium ? ratio : real(1.0f);
     }
   }
   return s;
