@@ -24,10 +24,17 @@ STOKES_FN Real3 to_texture(const SceneView* view, Int texture, Real3 p) {
                fma(p.x, m[8], fma(p.y, m[9], fma(p.z, m[10], m[11]))));
 }
 
+/// One factor of the checker's product. A surface that lies on a boundary of cells (a floor at y = 0) belongs to the cell above it,
+/// whatever the rounding of its points.
+STOKES_FN Real checker_factor(Real x) {
+  const Real s = sin_real(x);
+  return abs_real(s) < real(1e-4f) ? real(1.0f) : s;
+}
+
 STOKES_FN Mask checker_is_odd(const SceneView* view, Int texture, Real3 position) {
   const Real3 p = to_texture(view, texture, position);
   const Real scale = texture_float(view, texture, 3);
-  return sin_real(p.x / scale) * sin_real(p.y / scale) * sin_real(p.z / scale) < real(0.0f);
+  return checker_factor(p.x / scale) * checker_factor(p.y / scale) * checker_factor(p.z / scale) < real(0.0f);
 }
 
 /// The weight of marble's base colour; the rest is veins.

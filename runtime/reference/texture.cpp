@@ -19,7 +19,9 @@ Vec3d to_texture(const Texture& t, Vec3d p) {
 
 bool is_odd(const Texture& t, Vec3d world) {
   const Vec3d p = to_texture(t, world);
-  return std::sin(p.x / t.scale) * std::sin(p.y / t.scale) * std::sin(p.z / t.scale) < 0;
+  // A plane on a boundary between cells (a floor at y = 0) would flicker with the rounding of its points: it belongs to the cell above.
+  auto factor = [](double x) { return std::abs(std::sin(x)) < 1e-4 ? 1.0 : std::sin(x); };
+  return factor(p.x / t.scale) * factor(p.y / t.scale) * factor(p.z / t.scale) < 0;
 }
 
 /// The weight of marble's base colour; the rest is veins.
