@@ -105,6 +105,8 @@ void append_mesh(Compilation& c, const SurfaceDescription& surface, std::uint32_
 // lights.cpp, environment.cpp
 /// Every emissive primitive, the background and the environment; powers, probabilities, the alias table.
 void compile_lights(Compilation& c);
+/// Marks the media that light enters by refraction alone. Needs the surfaces and the camera.
+void seal_media(Compilation& c);
 /// Texels and CDFs of the environment; returns the mean radiance over the sphere.
 Curve compile_environment(Compilation& c);
 
