@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "scene/json_source.h"
 #include "unit/scene_support.h"
 
 namespace stokes {
@@ -223,6 +224,15 @@ TEST(SceneImage, EnvironmentMap) {
   EXPECT_EQ(b.scale, 2);
 }
 
+// Generated meshes as coarse as a test needs.
+void coarse_meshes(const Json& surfaces, const std::string& pointer, SceneOverrides& overrides) {
+  for (std::size_t i = 0; i < surfaces.size(); i++) {
+    const std::string at = pointer + "/" + std::to_string(i);
+    if (surfaces[i].contains("generator")) overrides.emplace_back(at + "/resolution", "8");
+    if (surfaces[i].contains("children")) coarse_meshes(surfaces[i]["children"], at + "/children", overrides);
+  }
+}
+
 // Every scene of the project is valid, says nothing that needs a warning, and stands in the manual.
 TEST(SceneFolder, EverySceneIsReadAndDescribed) {
   const std::filesystem::path folder = std::filesystem::path(STOKES_SOURCE_DIR) / "scenes";
@@ -232,9 +242,10 @@ TEST(SceneFolder, EverySceneIsReadAndDescribed) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     const std::string name = entry.path().stem().string();
-    SceneOverrides coarse;  // generated heads as coarse as a test needs
-    if (name.starts_with("skin")) coarse.emplace_back("/surfaces/0/resolution", "10");
-    if (name == "skin_two_layers") coarse.emplace_back("/surfaces/1/resolution", "10");
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    SceneOverrides coarse;
+    coarse_meshes(parse_json(text.str(), name).root.value("surfaces", Json::array()), "/surfaces", coarse);
     SceneDescription scene;
     EXPECT_NO_THROW(scene = read_scene(entry.path().string(), coarse)) << name;
     EXPECT_THAT(scene.warnings, testing::IsEmpty()) << name;
