@@ -19,15 +19,26 @@ typedef struct {
   float albedo[3][LANES], normal[3][LANES];
 } FilmSamples;
 
+/// The nearest integer (even at halves); |value| at most FILM_LIMIT. Adding 2^23 leaves a float no fraction to keep.
+STOKES_FN long film_round(float value) {
+  const float shift = value < 0.0f ? -8388608.0f : 8388608.0f;
+  const float rounded = (value + shift) - shift;
+  return (long)(fabs(value) < 8388608.0f ? rounded : value);
+}
+
 /// Adds a number, in units of the word's quantum.
-STOKES_FN void film_add_word(__global long* word, float value) { *word += (long)rint(value); }
+STOKES_FN void film_add_word(__global long* word, float value) { *word += film_round(value); }
 
 /// Adds a square of at most 2^124 to 128 bits (low, high).
 STOKES_FN void film_add_square(__global long* words, long x) {
-  const ulong low = (ulong)x * (ulong)x;
+  const ulong a = (ulong)(x < 0 ? -x : x);
+  const ulong top = a >> 32, bottom = a & 0xffffffffu;
+  const ulong cross = top * bottom;  // below 2^62
+  const ulong square = bottom * bottom, low = square + (cross << 33);
+  const ulong high = top * top + (cross >> 31) + (low < square ? 1u : 0u);
   const ulong sum = (ulong)words[0] + low;
   words[0] = (long)sum;
-  words[1] += mul_hi(x, x) + (sum < low ? 1L : 0L);
+  words[1] += (long)(high + (sum < low ? 1u : 0u));
 }
 
 /// Whether a number is finite and not too large for a word; NaN is not.
@@ -120,7 +131,7 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
     words[11] += 1;
     return;
   }
-  const long r = (long)rint(scaled.x), g = (long)rint(scaled.y), b = (long)rint(scaled.z);
+  const long r = film_round(scaled.x), g = film_round(scaled.y), b = film_round(scaled.z);
   words[0] += r;
   words[1] += g;
   words[2] += b;

@@ -173,26 +173,43 @@ STOKES_FN Uint load_uint(const uint* p) { return STOKES_JOIN(vload, LANES)(0, p)
 
 // ---- Gathers: lane j reads element i_j. Every lane reads, so dead lanes need a valid index too ----------------
 #define STOKES_GATHER_1(k) p[LANE(i, k)]
-#define STOKES_GATHER_2A(k) p[2 * LANE(i, k)]
-#define STOKES_GATHER_2B(k) p[2 * LANE(i, k) + 1]
-#define STOKES_GATHER_4(c) (Real)(STOKES_EACH_LANE(STOKES_GATHER_4##c))
-#define STOKES_GATHER_4A(k) p[4 * LANE(i, k)]
-#define STOKES_GATHER_4B(k) p[4 * LANE(i, k) + 1]
-#define STOKES_GATHER_4C(k) p[4 * LANE(i, k) + 2]
-#define STOKES_GATHER_4D(k) p[4 * LANE(i, k) + 3]
+// Records of two or four are loaded whole, one per lane, and turned in registers: CPUs' own gather instructions are slower.
+#define STOKES_LOAD_2(k) vload2((size_t)LANE(i, k), p)
+#define STOKES_LOAD_4(k) vload4((size_t)LANE(i, k), p)
+#define STOKES_ITEM_X(k) item[k].x
+#define STOKES_ITEM_Y(k) item[k].y
+#define STOKES_ITEM_Z(k) item[k].z
+#define STOKES_ITEM_W(k) item[k].w
+// The lane digits of vectors as numbers.
+#if LANES == 1
+#define STOKES_EACH_ITEM(X) X(0)
+#elif LANES == 8
+#define STOKES_EACH_ITEM(X) X(0), X(1), X(2), X(3), X(4), X(5), X(6), X(7)
+#else
+#define STOKES_EACH_ITEM(X) \
+  X(0), X(1), X(2), X(3), X(4), X(5), X(6), X(7), X(8), X(9), X(10), X(11), X(12), X(13), X(14), X(15)
+#endif
 
 STOKES_FN Real gather_real(const __global float* p, Int i) { return (Real)(STOKES_EACH_LANE(STOKES_GATHER_1)); }
 /// Elements 2 i and 2 i + 1.
 STOKES_FN void gather_real2(const __global float* p, Int i, Real* a, Real* b) {
-  *a = (Real)(STOKES_EACH_LANE(STOKES_GATHER_2A));
-  *b = (Real)(STOKES_EACH_LANE(STOKES_GATHER_2B));
+  const float2 item[LANES] = {STOKES_EACH_LANE(STOKES_LOAD_2)};
+  *a = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_X));
+  *b = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_Y));
 }
 /// Elements 4 i to 4 i + 3.
 STOKES_FN void gather_real4(const __global float* p, Int i, Real* x4) {
-  x4[0] = STOKES_GATHER_4(A);
-  x4[1] = STOKES_GATHER_4(B);
-  x4[2] = STOKES_GATHER_4(C);
-  x4[3] = STOKES_GATHER_4(D);
+  const float4 item[LANES] = {STOKES_EACH_LANE(STOKES_LOAD_4)};
+  x4[0] = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_X));
+  x4[1] = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_Y));
+  x4[2] = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_Z));
+  x4[3] = (Real)(STOKES_EACH_ITEM(STOKES_ITEM_W));
+}
+/// The same words read as integers.
+STOKES_FN void gather_int4(const __global uint* p, Int i, Int* x4) {
+  Real x[4];
+  gather_real4((const __global float*)p, i, x);
+  STOKES_UNROLL for (int k = 0; k < 4; k++) x4[k] = as_integer(x[k]);
 }
 #define STOKES_GATHER_INT(k) (int)p[LANE(i, k)]
 STOKES_FN Int gather_int(const __global uint* p, Int i) { return (Int)(STOKES_EACH_LANE(STOKES_GATHER_INT)); }

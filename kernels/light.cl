@@ -34,13 +34,23 @@ STOKES_FN void aim_at(Real3 p, Real3 target, Real3 normal, Real pdf_area, Mask m
   s->pdf = mask ? (lit ? pdf_area * distance2 / cosine : real(0.0f)) : s->pdf;
 }
 
+/// Four words of a light's primitive, at row `row` of its record of `rows`. A scene's only light is read once for all lanes.
+STOKES_FN void light_row(const SceneView* view, const __global float* records, Int primitive, int rows, int row, Real* x4) {
+  if (view->scene->light_count == 1u) {
+    const __global float* x = records + (view->lights[0].primitive * (uint)rows + (uint)row) * 4u;
+    STOKES_UNROLL for (int k = 0; k < 4; k++) x4[k] = real(x[k]);
+  } else {
+    gather_real4(records, primitive * rows + row, x4);
+  }
+}
+
 STOKES_FN void quad_light_sample(const SceneView* view, Int quad, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
   const __global float* quads = (const __global float*)view->quads;
   Real plane[4], corner[4], edge_u[4], edge_v[4];
-  gather_real4(quads, quad * (QUAD_WORDS / 4), plane);
-  gather_real4(quads, quad * (QUAD_WORDS / 4) + 3, corner);
-  gather_real4(quads, quad * (QUAD_WORDS / 4) + 4, edge_u);
-  gather_real4(quads, quad * (QUAD_WORDS / 4) + 5, edge_v);
+  light_row(view, quads, quad, QUAD_WORDS / 4, 0, plane);
+  light_row(view, quads, quad, QUAD_WORDS / 4, 3, corner);
+  light_row(view, quads, quad, QUAD_WORDS / 4, 4, edge_u);
+  light_row(view, quads, quad, QUAD_WORDS / 4, 5, edge_v);
   const Real3 start = madd3(real3(corner[0], corner[1], corner[2]), real3(edge_u[0], edge_u[1], edge_u[2]), u1);
   const Real3 target = madd3(start, real3(edge_v[0], edge_v[1], edge_v[2]), u2);
   aim_at(p, target, real3(plane[0], plane[1], plane[2]), real(1.0f) / corner[3], mask, s);
@@ -72,7 +82,7 @@ STOKES_FN Mask sphere_by_cone(Real radius2, Real distance2, Mask flipped) { retu
 STOKES_FN void sphere_light_sample(const SceneView* view, Int sphere, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
   const __global float* spheres = (const __global float*)view->spheres;
   Real record[4];
-  gather_real4(spheres, sphere * (SPHERE_WORDS / 4), record);
+  light_row(view, spheres, sphere, SPHERE_WORDS / 4, 0, record);
   const Mask flipped = gather_int((const __global uint*)spheres, sphere * SPHERE_WORDS + 15) != integer(0);
   const Real3 center = real3(record[0], record[1], record[2]);
   const Real radius = record[3], radius2 = radius * radius;

@@ -7,6 +7,10 @@
 #define MATERIAL_WORDS 12
 #define STOKES_BLEND_DEPTH 8
 
+/// Four words of a material, at row 0 (type, albedo, eta, k) or 1 (parameter, ...).
+STOKES_FN void material_row(const SceneView* view, Int material, int row, Int* x4) {
+  gather_int4((const __global uint*)view->materials, material * (MATERIAL_WORDS / 4) + row, x4);
+}
 STOKES_FN Int material_uint(const SceneView* view, Int material, int word) {
   return gather_int((const __global uint*)view->materials, material * MATERIAL_WORDS + word);
 }
@@ -43,28 +47,29 @@ STOKES_FN Int material_resolve(const SceneView* view, const SurfacePoint* point,
 /// The BSDF of a resolved material. `outside`: wo is on the side of the geometric normal.
 STOKES_FN Bsdf bsdf_load(const SceneView* view, Int material, const SurfacePoint* point, Mask outside, const Spectrum* lambda, Mask mask) {
   Bsdf b;
-  const Int type = material_uint(view, material, 0);
-  b.type = mask ? type : integer(-1);
+  Int record[4];
+  material_row(view, material, 0, record);
+  b.type = mask ? record[0] : integer(-1);
   b.parameter = material_float(view, material, 4);
   b.specular = no_lanes();
   b.eta = real(1.5f);
   b.conductor_eta = b.conductor_k = integer(0);
   // Lights and interfaces have no albedo.
-  b.color = color_eval(view, material_uint(view, material, 1), point, lambda, mask);
+  b.color = color_eval(view, record[1], point, lambda, mask);
   if (SCENE_HAS_METAL) b.specular = b.specular | bsdf_is(&b, MATERIAL_METAL);
   if (SCENE_HAS_SMOOTH_DIELECTRIC || SCENE_HAS_ROUGH_DIELECTRIC) {
     const Mask dielectric = bsdf_is(&b, MATERIAL_DIELECTRIC);
     if (any(dielectric)) {
       // The hero's index decides the way; without dispersion all wavelengths share it.
-      const Spectrum eta = spectrum_eval(view, dielectric ? material_uint(view, material, 2) : integer(0), lambda);
+      const Spectrum eta = spectrum_eval(view, dielectric ? record[2] : integer(0), lambda);
       b.eta = dielectric ? (outside ? eta.v[0] : real(1.0f) / eta.v[0]) : b.eta;
       b.specular = b.specular | (dielectric & !(b.parameter > real(0.0f)));
     }
   }
   if (SCENE_HAS_CONDUCTOR) {
     const Mask conductor = bsdf_is(&b, MATERIAL_CONDUCTOR);
-    b.conductor_eta = conductor ? material_uint(view, material, 2) : integer(0);
-    b.conductor_k = conductor ? material_uint(view, material, 3) : integer(0);
+    b.conductor_eta = conductor ? record[2] : integer(0);
+    b.conductor_k = conductor ? record[3] : integer(0);
     b.specular = b.specular | (conductor & !(b.parameter > real(0.0f)));
   }
   return b;

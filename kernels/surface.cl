@@ -26,20 +26,28 @@ STOKES_FN Int own_index(Mask m, Int primitive, int first) { return m ? primitive
 
 STOKES_FN void quad_point(const SceneView* view, Real3 o, Real3 d, Real t, Int i, Mask m, SurfacePoint* point) {
   const __global float* words = (const __global float*)view->quads;
-  const Int base = i * (int)(sizeof(Quad) / 4);
-  const Real3 n = gather_real3(words, base);
-  const Real offset = gather_real(words, base + 3);
+  const Int row = i * (int)(sizeof(Quad) / 16);
+  Real plane[4];
+  Int edge_u[4], edge_v[4];
+  gather_real4(words, row, plane);
+  gather_int4((const __global uint*)words, row + 4, edge_u);
+  gather_int4((const __global uint*)words, row + 5, edge_v);
+  const Real3 n = real3(plane[0], plane[1], plane[2]);
+  const Real offset = plane[3];
   // The point is dropped onto the plane, which leaves the rounding of one dot product.
   Real3 p = madd3(o, d, t);
   p = madd3(p, n, offset - dot3(n, p));
   point->position = select3(m, p, point->position);
   point->ng = select3(m, n, point->ng);
   point->error = m ? (dot3(abs3(n), abs3(p)) + abs_real(offset)) * STOKES_ROUNDINGS_8 : point->error;
-  point->surface = m ? gather_int((const __global uint*)words, base + 19) : point->surface;
-  point->light = m ? gather_int((const __global uint*)words, base + 23) : point->light;
+  point->surface = m ? edge_u[3] : point->surface;
+  point->light = m ? edge_v[3] : point->light;
   if (SCENE_HAS_TEXTURES) {
-    const Real u = dot3(gather_real3(words, base + 4), p) - gather_real(words, base + 7);
-    const Real v = dot3(gather_real3(words, base + 8), p) - gather_real(words, base + 11);
+    Real dual_u[4], dual_v[4];
+    gather_real4(words, row + 1, dual_u);
+    gather_real4(words, row + 2, dual_v);
+    const Real u = dot3(real3(dual_u[0], dual_u[1], dual_u[2]), p) - dual_u[3];
+    const Real v = dot3(real3(dual_v[0], dual_v[1], dual_v[2]), p) - dual_v[3];
     point->u = m ? clamp_real(u, real(0.0f), real(1.0f)) : point->u;
     point->v = m ? clamp_real(v, real(0.0f), real(1.0f)) : point->v;
   }
@@ -56,17 +64,21 @@ STOKES_FN void sphere_uv(Real3 direction, Mask m, SurfacePoint* point) {
 STOKES_FN void sphere_point(const SceneView* view, Real3 o, Real3 d, Real t, Int i, Mask m, SurfacePoint* point) {
   const __global float* words = (const __global float*)view->spheres;
   const Int base = i * (int)(sizeof(Sphere) / 4);
-  const Real3 center = gather_real3(words, base);
-  const Real radius = gather_real(words, base + 3);
+  Real ball[4];
+  Int ids[4];
+  gather_real4(words, i * (int)(sizeof(Sphere) / 16), ball);
+  gather_int4((const __global uint*)words, i * (int)(sizeof(Sphere) / 16) + 3, ids);
+  const Real3 center = real3(ball[0], ball[1], ball[2]);
+  const Real radius = ball[3];
   // Reprojected onto the sphere, along the radius.
   const Real3 outward = normalize3(madd3(sub3(o, center), d, t));
   const Real3 p = madd3(center, outward, radius);
-  const Mask flip = gather_int((const __global uint*)words, base + 15) != integer(0);
+  const Mask flip = ids[3] != integer(0);
   point->position = select3(m, p, point->position);
   point->ng = select3(m, select3(flip, neg3(outward), outward), point->ng);
   point->error = m ? (dot3(abs3(outward), abs3(center)) + radius) * STOKES_ROUNDINGS_8 : point->error;
-  point->surface = m ? gather_int((const __global uint*)words, base + 13) : point->surface;
-  point->light = m ? gather_int((const __global uint*)words, base + 14) : point->light;
+  point->surface = m ? ids[1] : point->surface;
+  point->light = m ? ids[2] : point->light;
   if (SCENE_HAS_TEXTURES) {
     const Real3 direction = real3(dot3(gather_real3(words, base + 4), outward), dot3(gather_real3(words, base + 7), outward),
                               dot3(gather_real3(words, base + 10), outward));
@@ -184,12 +196,13 @@ STOKES_FN SurfacePoint surface_point(const SceneView* view, Real3 o, Real3 d, Hi
   const Mask flat = (point.ns.x == real(0.0f)) & (point.ns.y == real(0.0f)) & (point.ns.z == real(0.0f));
   point.ns = select3(flat, point.ng, point.ns);
   const __global uint* surfaces = (const __global uint*)view->surfaces;
-  const Int base = point.surface * (int)(sizeof(Surface) / 4);
-  point.material = gather_int(surfaces, base);
-  point.medium_outside = SCENE_HAS_MEDIA ? gather_int(surfaces, base + 1) : integer(0);
-  point.medium_inside = SCENE_HAS_MEDIA ? gather_int(surfaces, base + 2) : integer(0);
-  point.emission = gather_int(surfaces, base + 3);
-  point.flags = gather_int(surfaces, base + 4);
+  Int record[4];
+  gather_int4(surfaces, point.surface * (int)(sizeof(Surface) / 16), record);
+  point.material = record[0];
+  point.medium_outside = record[1];
+  point.medium_inside = record[2];
+  point.emission = record[3];
+  point.flags = gather_int(surfaces, point.surface * (int)(sizeof(Surface) / 4) + 4);
   return point;
 }
 
