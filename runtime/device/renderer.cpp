@@ -74,7 +74,7 @@ struct Renderer::State {
   cl::Context context;
   cl::CommandQueue queue;
   cl::Kernel kernel;
-  std::vector<cl::Buffer> scene_buffers;
+  SceneBuffers scene_buffers;
   std::uint64_t scene_bytes = 0;
   cl::Buffer launch_buffer, counter_buffer, film_buffer, film_copy;
   std::size_t film_bytes = 0;
@@ -108,7 +108,8 @@ Renderer::State::State(const CompiledScene& scene, const DeviceInfo& chosen, con
 
   context = cl::Context(device);
   queue = cl::CommandQueue(context, device);
-  scene_buffers = upload_scene(context, scene);
+  // Mesa's CPU device keeps a copy of its own all the same.
+  scene_buffers = upload_scene(context, scene, info.type == "cpu" && info.platform_name != "rusticl");
   launch_buffer = cl::Buffer(context, CL_MEM_READ_ONLY, sizeof(layout::Launch));
   const std::size_t counter_bytes = std::size_t(geometry.work_items) * COUNTER_COUNT * sizeof(cl_ulong);
   counter_buffer = cl::Buffer(context, CL_MEM_READ_WRITE, counter_bytes);
@@ -134,7 +135,7 @@ void Renderer::State::build(const CompiledScene& scene, const DeviceOptions& opt
 
 void Renderer::State::set_arguments() {
   cl_uint index = 0;
-  for (const cl::Buffer& buffer : scene_buffers) kernel.setArg(index++, buffer);
+  for (const cl::Buffer& buffer : scene_buffers.buffers) kernel.setArg(index++, buffer);
   kernel.setArg(index++, launch_buffer);
   kernel.setArg(index++, film_buffer);
   kernel.setArg(index++, counter_buffer);

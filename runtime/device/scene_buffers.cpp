@@ -1,6 +1,12 @@
 // Uploads scenes. Knows their arrays' sizes, not their meaning.
 #include "device/scene_buffers.h"
 
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
 #include <string>
 
 #include "device/error.h"
@@ -17,6 +23,25 @@ SceneArray array_of(const char* name, const std::vector<Item>& items) {
 template <typename Item>
 SceneArray array_of(const char* name, const Item& item) {
   return {name, &item, sizeof item};
+}
+
+// An array's share of the block: whole cache lines at the alignment that every runtime takes memory in place at.
+std::size_t padded(std::size_t bytes) {
+  constexpr std::size_t kAlignment = 4096;
+  return std::max<std::size_t>(1, (bytes + kAlignment - 1) / kAlignment) * kAlignment;
+}
+
+// Zeroed memory in 2 MiB pages where the system has them.
+std::shared_ptr<void> allocate_large_pages(std::size_t bytes) {
+  constexpr std::size_t kPage = std::size_t(2) << 20;
+  const std::size_t size = (bytes + kPage - 1) / kPage * kPage;
+  std::shared_ptr<void> memory(std::aligned_alloc(kPage, size), std::free);
+  if (!memory) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+  madvise(memory.get(), size, MADV_HUGEPAGE);  // a wish; without it the memory is merely slower
+#endif
+  std::memset(memory.get(), 0, bytes);
+  return memory;
 }
 
 std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
@@ -59,16 +84,31 @@ std::uint64_t scene_bytes(const CompiledScene& scene) {
   return bytes;
 }
 
-std::vector<cl::Buffer> upload_scene(const cl::Context& context, const CompiledScene& scene) {
-  static const std::uint32_t kNothing[4] = {};
-  std::vector<cl::Buffer> buffers;
-  for (const SceneArray& array : list_scene_arrays(scene)) {
-    const void* data = array.bytes ? array.data : kNothing;
-    const std::size_t bytes = array.bytes ? array.bytes : sizeof kNothing;
-    // The flag makes OpenCL copy; the bindings' signature only lacks the const.
-    buffers.emplace_back(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes, const_cast<void*>(data));
+SceneBuffers upload_scene(const cl::Context& context, const CompiledScene& scene, bool in_place) {
+  const std::vector<SceneArray> arrays = list_scene_arrays(scene);
+  SceneBuffers result;
+  if (!in_place) {
+    static const std::uint32_t kNothing[4] = {};
+    for (const SceneArray& array : arrays) {
+      const void* data = array.bytes ? array.data : kNothing;
+      const std::size_t bytes = array.bytes ? array.bytes : sizeof kNothing;
+      // The flag makes OpenCL copy; the bindings' signature only lacks the const.
+      result.buffers.emplace_back(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes, const_cast<void*>(data));
+    }
+    return result;
   }
-  return buffers;
+
+  // One block for all, so that small tables share a page: a page each would cost memory and address translation alike.
+  std::size_t total = 0;
+  for (const SceneArray& array : arrays) total += padded(array.bytes);
+  result.memory = allocate_large_pages(total);
+  char* place = static_cast<char*>(result.memory.get());
+  for (const SceneArray& array : arrays) {
+    if (array.bytes) std::memcpy(place, array.data, array.bytes);
+    result.buffers.emplace_back(context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, padded(array.bytes), place);
+    place += padded(array.bytes);
+  }
+  return result;
 }
 
 void require_memory(const cl::Device& device, const std::string& device_name, std::uint64_t total_bytes, std::uint64_t largest_bytes) {

@@ -1,0 +1,62 @@
+"""A process that renders one scene with one variant of Mitsuba, on request: `mitsuba_worker.py VARIANT SCENE.json SIZE SPP`.
+Each line of its input is a seed; it answers with a line of JSON: CPU seconds of the render, mean linear sRGB of the image; and keeps
+the images, so that "noise" answers with their efficiency."""
+import json
+import os
+import sys
+import time
+
+import mitsuba as mi
+import numpy as np
+
+from mitsuba_scene import mitsuba_scene
+
+XYZ_TO_SRGB = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
+LUMINANCE = np.array([0.2126729, 0.7151522, 0.0721750])
+
+
+def efficiencies(images, seconds):
+    """As `stokes bench`: pixels / (relative variance x CPU seconds) / 1e6, of the luminance's median pixel and of the trimmed mean of
+    R, G and B."""
+    luminance = images @ LUMINANCE
+    relative = luminance.var(0, ddof=1) / (luminance.mean(0) ** 2 + 0.01)
+    colours = (images.var(0, ddof=1) / (images.mean(0) ** 2 + 0.01)).mean(-1)
+    kept = relative <= np.quantile(relative, 0.999)
+    count = relative.size
+    return count / (np.median(relative) * seconds) / 1e6, count / (colours[kept].mean() * seconds) / 1e6
+
+
+def main():
+    variant, path, size, spp = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
+    mi.set_variant(variant)
+    llvm = variant.startswith("llvm")
+    if llvm:
+        import drjit as dr
+        dr.set_thread_count(1)
+    scene = mi.load_dict(mitsuba_scene(mi, json.load(open(path)), size, spp), parallel=False)
+
+    def render(seed):
+        begin = time.process_time()
+        image = mi.render(scene, spp=spp, seed=seed)
+        if llvm:
+            dr.eval(image)
+            dr.sync_thread()
+        image = np.array(image, dtype=np.float64)
+        return time.process_time() - begin, image @ XYZ_TO_SRGB.T
+
+    if llvm:
+        render(1 << 20)  # traces and compiles
+    print(json.dumps({"ready": mi.__version__, "threads": os.cpu_count()}), flush=True)
+    images, seconds = [], []
+    for line in sys.stdin:
+        if line.strip() == "noise":
+            median, rgb = efficiencies(np.array(images), float(np.median(seconds)))
+            print(json.dumps({"efficiency_median": median, "efficiency_rgb": rgb}), flush=True)
+            continue
+        took, image = render(int(line))
+        images.append(image)
+        seconds.append(took)
+        print(json.dumps({"cpu_seconds": took, "mean": image.mean((0, 1)).tolist()}), flush=True)
+
+
+main()
