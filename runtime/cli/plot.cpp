@@ -8,6 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
@@ -20,9 +22,11 @@ namespace stokes {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr int kSamples = 20000;  // of each curve of a fluorescent material, where the user asks for no number
+
 struct PlotOptions {
   std::string what, output, role = "reflectance";
-  int samples = 0, width = 960, height = 540;
+  int samples = -1, width = 960, height = 540;
 };
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -37,44 +41,55 @@ SpectrumRole parse_role(const std::string& name) {
   return SpectrumRole::Reflectance;
 }
 
+/// A plot, and which of its curves are a dye's: densities that wavelengths are drawn from.
+struct Drawing {
+  Plot plot;
+  std::vector<std::size_t> dyes;
+};
+
 void add_curve(Plot& plot, const std::string& name, const SpectrumPtr& spectrum, SpectrumRole role) {
   if (spectrum) plot.curves.push_back({name, tabulate(*spectrum, role), {}});
 }
 
-void add_dyes(Plot& plot, const std::string& name, const std::vector<DyeDescription>& dyes) {
+void add_dyes(Drawing& drawing, const std::string& name, const std::vector<DyeDescription>& dyes) {
   for (std::size_t i = 0; i < dyes.size(); i++) {
     const std::string dye = name + (dyes.size() > 1 ? " dye " + std::to_string(i) : "");
-    add_curve(plot, dye + " absorption", dyes[i].absorption, SpectrumRole::Dye);
-    add_curve(plot, dye + " emission", dyes[i].emission, SpectrumRole::Dye);
+    for (const auto& [curve, spectrum] : {std::pair(" absorption", dyes[i].absorption), std::pair(" emission", dyes[i].emission)}) {
+      drawing.dyes.push_back(drawing.plot.curves.size());
+      add_curve(drawing.plot, dye + curve, spectrum, SpectrumRole::Dye);
+    }
   }
 }
 
-void add_material(Plot& plot, const MaterialDescription& m) {
+void add_material(Drawing& drawing, const MaterialDescription& m) {
+  Plot& plot = drawing.plot;
   const std::string name = m.name.empty() ? m.pointer : m.name;
   add_curve(plot, name + " albedo", m.albedo.spectrum, SpectrumRole::Reflectance);
   add_curve(plot, name + " index", m.ior, SpectrumRole::Index);
   add_curve(plot, name + " eta", m.eta, SpectrumRole::Index);
   add_curve(plot, name + " k", m.k, SpectrumRole::Index);
   add_curve(plot, name + " emission", m.emit, SpectrumRole::Emission);
-  add_dyes(plot, name, m.dyes);
+  add_dyes(drawing, name, m.dyes);
   for (const MaterialPtr& child : {m.a, m.b})
-    if (child) add_material(plot, *child);
+    if (child) add_material(drawing, *child);
 }
 
-void add_medium(Plot& plot, const MediumDescription& m) {
+void add_medium(Drawing& drawing, const MediumDescription& m) {
+  Plot& plot = drawing.plot;
   const std::string name = m.name.empty() ? m.pointer : m.name;
   add_curve(plot, name + " sigma_t", m.sigma_t, SpectrumRole::Coefficient);
   add_curve(plot, name + " sigma_s", m.sigma_s, SpectrumRole::Coefficient);
   add_curve(plot, name + " sigma_a", m.sigma_a, SpectrumRole::Coefficient);
   add_curve(plot, name + " albedo", m.albedo, SpectrumRole::Coefficient);
   add_curve(plot, name + " g", m.g, SpectrumRole::Coefficient);
-  add_dyes(plot, name, m.dyes);
+  add_dyes(drawing, name, m.dyes);
 }
 
 /// All named things of a scene, or the one called `wanted`.
-Plot plot_scene(const std::string& path, const std::string& wanted) {
+Drawing plot_scene(const std::string& path, const std::string& wanted) {
   const SceneDescription scene = read_scene(path);
-  Plot plot;
+  Drawing drawing;
+  Plot& plot = drawing.plot;
   plot.title = fs::path(path).filename().string() + (wanted.empty() ? "" : "#" + wanted);
   std::string names;
   const auto take = [&](const std::string& name) {
@@ -84,12 +99,12 @@ Plot plot_scene(const std::string& path, const std::string& wanted) {
   for (const SpectrumPtr& s : scene.spectra)
     if (take(s->name)) add_curve(plot, s->name, s, SpectrumRole::Reflectance);
   for (const MediumPtr& m : scene.media)
-    if (take(m->name)) add_medium(plot, *m);
+    if (take(m->name)) add_medium(drawing, *m);
   for (const MaterialPtr& m : scene.materials)
-    if (take(m->name)) add_material(plot, *m);
+    if (take(m->name)) add_material(drawing, *m);
   if (plot.curves.empty())
     throw InputError(path + ": " + (wanted.empty() ? "has no named spectrum, medium or material" : "has no curves named '" + wanted + "'; it has: " + names));
-  return plot;
+  return drawing;
 }
 
 /// The scene format's JSON of an expression: JSON itself, a CSV file's name, an illuminant's name, `blackbody:5000`,
@@ -109,7 +124,7 @@ std::string expression_json(const std::string& text) {
   return text;
 }
 
-Plot plot_expression(const PlotOptions& o) {
+Drawing plot_expression(const PlotOptions& o) {
   const std::string json = expression_json(o.what);
   if (!nlohmann::json::accept(json))
     throw UsageError("plot: '" + o.what + "' is neither a scene (.json), a curve (.csv), an illuminant (D65, A, E, F11), blackbody:K, gaussian:MEAN:STDDEV, "
@@ -117,20 +132,27 @@ Plot plot_expression(const PlotOptions& o) {
   // A sum of one holds any form of spectrum, numbers and [r, g, b] included.
   const std::string text = "{\"camera\":{},\"spectra\":[{\"name\":\"it\",\"type\":\"sum\",\"of\":[" + json + "]}]}";
   const SceneDescription scene = read_scene_text(text, "expression", ".");
-  Plot plot;
+  Drawing drawing;
+  Plot& plot = drawing.plot;
   plot.title = o.what;
   const bool light = json.find("\"illuminant\"") != std::string::npos || json.find("\"blackbody\"") != std::string::npos;
   add_curve(plot, o.what, scene.spectra.front(), light ? SpectrumRole::Emission : parse_role(o.role));
-  return plot;
+  return drawing;
 }
 
-void draw_samples(Plot& plot, int count) {
+/// Draws `count` wavelengths from each curve, or of a scene with dyes from the dyes' curves alone, as both integrators sample spectra: a cell by
+/// the cumulative table, then exactly the linear density inside it.
+void draw_samples(Drawing& drawing, int count) {
   std::mt19937_64 random(0);
   std::uniform_real_distribution<double> uniform(0, 1);
-  for (PlotCurve& curve : plot.curves) {
+  std::vector<std::size_t> densities = drawing.dyes;
+  if (densities.empty())
+    for (std::size_t i = 0; i < drawing.plot.curves.size(); i++) densities.push_back(i);
+  for (const std::size_t i : densities) {
+    PlotCurve& curve = drawing.plot.curves[i];
     const TableDistribution distribution = make_distribution(curve.table);
     if (distribution.integral <= 0) continue;
-    for (int i = 0; i < count; i++) curve.samples.push_back(static_cast<float>(sample_distribution(curve.table, distribution, uniform(random))));
+    for (int n = 0; n < count; n++) curve.samples.push_back(static_cast<float>(sample_distribution(curve.table, distribution, uniform(random))));
   }
 }
 
@@ -153,8 +175,11 @@ int run_plot(PlotOptions o) {
   if (o.output.empty()) o.output = (is_scene ? fs::path(path).stem().string() : "spectrum") + ".svg";
   if (!ends_with(o.output, ".svg") && !ends_with(o.output, ".png")) throw UsageError("-o: '" + o.output + "' ends in neither .svg nor .png");
   require_writable(o.output);
-  Plot plot = is_scene ? plot_scene(path, hash == std::string::npos ? "" : o.what.substr(hash + 6)) : plot_expression(o);
-  if (o.samples > 0) draw_samples(plot, o.samples);
+  Drawing drawing = is_scene ? plot_scene(path, hash == std::string::npos ? "" : o.what.substr(hash + 6)) : plot_expression(o);
+  const bool fluoresces = hash != std::string::npos && !drawing.dyes.empty();
+  const int samples = o.samples >= 0 ? o.samples : fluoresces ? kSamples : 0;
+  if (samples > 0) draw_samples(drawing, samples);
+  const Plot& plot = drawing.plot;
   if (ends_with(o.output, ".svg"))
     write_bytes(o.output, plot_svg(plot, o.width, o.height));
   else
@@ -170,7 +195,8 @@ Command add_plot(CLI::App& root) {
   CLI::App* app = root.add_subcommand("plot", "Draws spectra: of an expression, of a scene, or of one of its spectra, media or materials");
   app->add_option("what", o->what, "SCENE.json, SCENE.json#NAME, FILE.csv, D65, A, E, F11, blackbody:K, gaussian:MEAN:STDDEV, box:FROM:TO, or JSON")->required();
   app->add_option("-o,--output", o->output, "OUT.svg or .png [the scene's name or spectrum, with .svg]");
-  app->add_option("--samples", o->samples, "Also draw this many wavelengths from each curve, as a histogram")->capture_default_str()->check(CLI::Range(0, 100000000));
+  app->add_option("--samples", o->samples, "Also draw this many wavelengths from each curve (of a scene with dyes: the dyes' curves), as a histogram [20000 for SCENE#NAME with dyes, else 0]")
+      ->check(CLI::Range(0, 100000000));
   app->add_option("--role", o->role, "How an expression is used: reflectance, emission, index, coefficient, dye")
       ->capture_default_str()->check(CLI::IsMember({"reflectance", "emission", "index", "coefficient", "dye"}));
   app->add_option("--width", o->width, "Pixels")->capture_default_str()->check(CLI::Range(200, 10000));

@@ -1,7 +1,9 @@
 // Reads dyes and measured reradiation matrices.
 #include <cmath>
+#include <exception>
 #include <fstream>
 
+#include "scene/bispectral_exr.h"
 #include "scene/csv.h"
 #include "scene/material_reader.h"
 #include "scene/spectrum_reader.h"
@@ -18,6 +20,19 @@ void check_bands(const JsonNode& node, const std::string& path, const std::vecto
   for (std::size_t i = 1; i < bands.size(); i++)
     if (!(step > 0) || std::abs(bands[i] - bands[i - 1] - step) > 1e-6 * step)
       node.fail(path + ": " + what + " bands must increase in equal steps, and " + show(bands[i]) + " follows " + show(bands[i - 1]));
+}
+
+std::shared_ptr<const ReradiationMatrix> read_reradiation_exr(const JsonNode& node, const std::string& path) {
+  try {
+    auto matrix = std::make_shared<ReradiationMatrix>(read_bispectral_exr(path));
+    check_bands(node, path, matrix->li, "incoming");
+    check_bands(node, path, matrix->lo, "outgoing");
+    return matrix;
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::exception& error) {
+    node.fail(path + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -54,6 +69,7 @@ std::vector<DyeDescription> read_dyes(ReadContext& context, const JsonNode& list
 }
 
 std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& node, const std::string& path) {
+  if (path.ends_with(".exr")) return read_reradiation_exr(node, path);
   auto matrix = std::make_shared<ReradiationMatrix>();
   matrix->filename = path;
   std::ifstream file(path);

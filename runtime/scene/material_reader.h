@@ -14,7 +14,7 @@ DyeDescription read_dye(ReadContext& context, const JsonObject& o, bool medium);
 /// An array of dyes.
 std::vector<DyeDescription> read_dyes(ReadContext& context, const JsonNode& list, bool medium);
 
-/// A measured reradiation matrix: first row incoming nm, first column outgoing nm.
+/// A measured reradiation matrix: a CSV with incoming nm in its first row and outgoing nm in its first column, or a bispectral EXR.
 std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& node, const std::string& path);
 
 }  // namespace stokes

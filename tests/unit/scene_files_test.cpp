@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "scene/json_source.h"
+#include "image/image_file.h"
 #include "unit/scene_support.h"
 
 namespace stokes {
@@ -179,6 +180,39 @@ TEST(SceneReradiation, FirstRowIsIncoming) {
   EXPECT_THAT(folder.error_of(scene), testing::EndsWith("m.csv:2: 3 columns, where the first row has 4"));
   folder.file("m.csv", "out\\in,300,310\n400,1,nan\n410,1,1\n");
   EXPECT_THAT(folder.error_of(scene), testing::EndsWith("m.csv:2: \"nan\" is not a finite number"));
+}
+
+// The layout of Fichet et al. 2021: T.<in>nm is the diagonal, T.<in>nm.<out>nm the rest; several pixels count as their mean.
+TEST(SceneReradiation, BispectralExr) {
+  const TemporaryFolder folder;
+  const auto write = [&](std::vector<Image::Channel> channels) {
+    Image image;
+    image.width = 2;
+    image.height = 1;
+    image.channels = std::move(channels);
+    write_exr(folder.path() + "/m.exr", image);
+  };
+  const std::string scene = R"({"camera": {}, "surfaces": [{"type": "quad", "material": {"type": "reradiation", "filename": "m.exr"}}]})";
+  write({{"R", {1, 1}},
+         {"T.400,000000nm", {0.5f, 0.5f}},
+         {"T.450,000000nm", {0.25f, 0.25f}},
+         {"T.500,000000nm", {0.125f, 0.125f}},
+         {"T.400,000000nm.500,000000nm", {0.25f, 0.5f}},
+         {"T.450,000000nm.4,5e2nm.extra", {9, 9}},
+         {"T.4,5e2nm.500,000000nm", {-0.0625f, -0.0625f}}});
+  const auto m = folder.read(scene).surfaces.at(0).material->matrix;
+  EXPECT_EQ(m->li, (std::vector<double>{400, 450, 500}));
+  EXPECT_EQ(m->lo, (std::vector<double>{400, 450, 500}));
+  EXPECT_EQ(m->values, (std::vector<double>{0.5, 0, 0, 0, 0.25, 0, 0.375, -0.0625, 0.125}));
+
+  write({{"R", {1, 1}}, {"S0.400,000000nm", {1, 1}}});
+  EXPECT_THAT(folder.error_of(scene), testing::EndsWith("m.exr: there are no channels called T.<nm>nm or T.<in>nm.<out>nm"));
+  write({{"T.400,000000nm", {1, 1}}, {"T.450,000000nm", {1, 1}}, {"T.550,000000nm", {1, 1}}});
+  EXPECT_THAT(folder.error_of(scene), testing::EndsWith("incoming bands must increase in equal steps, and 550 follows 450"));
+  write({{"T.400,000000nm", {1, NAN}}, {"T.450,000000nm", {1, 1}}});
+  EXPECT_THAT(folder.error_of(scene), testing::EndsWith("the channel T.400,000000nm is not finite"));
+  folder.file("m.exr", "no image");
+  EXPECT_THAT(folder.error_of(scene), testing::HasSubstr("m.exr: "));
 }
 
 TEST(SceneImage, EightBitFilesAreDecodedFromSrgb) {

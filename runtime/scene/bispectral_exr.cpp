@@ -1,0 +1,88 @@
+// See bispectral_exr.h.
+#include "scene/bispectral_exr.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace stokes {
+namespace {
+
+constexpr std::size_t kMaxValues = std::size_t(1) << 28;
+
+double parse_nanometres(std::string text) {
+  std::replace(text.begin(), text.end(), ',', '.');
+  return std::stod(text);
+}
+
+/// The incoming and the outgoing wavelength that a channel stands for. Early files of the layout say M00 for T.
+std::optional<std::pair<double, double>> channel_bands(const std::string& name) {
+  static const std::regex pattern(R"((?:T|M00)\.(\d+(?:,\d+)?(?:[Ee][+-]?\d+)?)nm(?:\.(\d+(?:,\d+)?(?:[Ee][+-]?\d+)?)nm)?)");
+  std::smatch match;
+  if (!std::regex_match(name, match, pattern)) return std::nullopt;
+  const double in = parse_nanometres(match[1]);
+  return std::pair(in, match[2].matched ? parse_nanometres(match[2]) : in);
+}
+
+void sort_unique(std::vector<double>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+std::size_t index_of(const std::vector<double>& bands, double band) {
+  return static_cast<std::size_t>(std::lower_bound(bands.begin(), bands.end(), band) - bands.begin());
+}
+
+/// Each channel's mean over all pixels.
+std::vector<double> read_means(OIIO::ImageInput& input) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
+  if (width * static_cast<std::size_t>(spec.height) * channels > kMaxValues) throw std::runtime_error("the image is too large");
+  std::vector<float> pixels(width * static_cast<std::size_t>(spec.height) * channels);
+  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) throw std::runtime_error(input.geterror());
+  std::vector<double> means(channels, 0.0);
+  for (std::size_t i = 0; i < pixels.size(); i++) means[i % channels] += pixels[i];
+  for (double& m : means) m /= static_cast<double>(pixels.size() / channels);
+  return means;
+}
+
+}  // namespace
+
+ReradiationMatrix read_bispectral_exr(const std::string& path) {
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) throw std::runtime_error(OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw std::runtime_error("the image has no usable size");
+
+  ReradiationMatrix matrix;
+  matrix.filename = path;
+  std::vector<std::pair<std::size_t, std::pair<double, double>>> channels;
+  for (std::size_t i = 0; i < spec.channelnames.size(); i++)
+    if (const auto bands = channel_bands(spec.channelnames[i])) {
+      channels.emplace_back(i, *bands);
+      matrix.li.push_back(bands->first);
+      matrix.lo.push_back(bands->second);
+    }
+  if (channels.empty()) throw std::runtime_error("there are no channels called T.<nm>nm or T.<in>nm.<out>nm");
+  sort_unique(matrix.li);
+  sort_unique(matrix.lo);
+  if (matrix.li.size() * matrix.lo.size() > kMaxValues) throw std::runtime_error("there are too many bands");
+
+  const std::vector<double> means = read_means(*input);
+  matrix.values.assign(matrix.li.size() * matrix.lo.size(), 0.0);
+  for (const auto& [channel, bands] : channels) {
+    if (!std::isfinite(means[channel])) throw std::runtime_error("the channel " + spec.channelnames[channel] + " is not finite");
+    matrix.values[index_of(matrix.lo, bands.second) * matrix.li.size() + index_of(matrix.li, bands.first)] = means[channel];
+  }
+  return matrix;
+}
+
+}  // namespace stokes
