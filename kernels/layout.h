@@ -56,8 +56,10 @@ typedef struct {
   uint surface;
   Vec3 edge_v;
   uint light;  // index of its light or STOKES_NONE
+  // A hit at distance t counts where |u - 1/2| <= reach_u + growth_u t, v alike: 1/2, and what rounding may have added.
+  float reach_u, growth_u, reach_v, growth_v;
 } Quad;
-LAYOUT_CHECK(Quad, 96);
+LAYOUT_CHECK(Quad, 112);
 
 // A true sphere (rotation, translation and uniform scale). `to_local` rotates world directions into the sphere's
 // frame (rows), for texture coordinates only.

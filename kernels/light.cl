@@ -8,7 +8,7 @@
 #include "traverse.cl"
 
 #define LIGHT_WORDS 8
-#define QUAD_WORDS 24
+#define QUAD_WORDS 28
 #define SPHERE_WORDS 16
 #define ELLIPSOID_WORDS 28
 #define TRIANGLE_WORDS 8

@@ -43,10 +43,10 @@ STOKES_FN Mask shadow_walk(const SceneView* view, ShadowRay* ray, const PathStat
     }
     const Mask arrived = walking & !blocked;
     Mask crossing = no_lanes();
-    SurfacePoint point;
     if (SCENE_HAS_INTERFACES && any(blocked)) {
-      point = surface_point(view, ray->origin, ray->direction, hit, blocked);
-      crossing = blocked & ((point.flags & (int)SURFACE_INTERFACE) != integer(0));
+      const Int surface = surface_of(view, hit.primitive, blocked);
+      const Int flags = gather_int((const __global uint*)view->surfaces, surface * (int)(sizeof(Surface) / 4) + 4);
+      crossing = blocked & ((flags & (int)SURFACE_INTERFACE) != integer(0));
     }
     if (SCENE_HAS_MEDIA) {
       const Real length = SCENE_HAS_INTERFACES ? (arrived ? ray->distance : hit.t) : ray->distance;
@@ -57,6 +57,7 @@ STOKES_FN Mask shadow_walk(const SceneView* view, ShadowRay* ray, const PathStat
     walking = crossing;
     if (!SCENE_HAS_INTERFACES || !any(walking)) break;
     // Step over the boundary, into the medium of its far side.
+    const SurfacePoint point = surface_point(view, ray->origin, ray->direction, hit, walking);
     const Mask out = dot3(ray->direction, point.ng) > real(0.0f);
     ray->medium = walking ? (out ? point.medium_outside : point.medium_inside) : ray->medium;
     ray->origin = select3(walking, offset_origin(&point, ray->direction), ray->origin);

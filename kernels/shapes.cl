@@ -27,9 +27,8 @@ STOKES_FN Real meet_quad(const __global Quad* quad, Real3 o, Real3 d) {
   const Real3 p = madd3(q, d, t);
   const Real u = fma(p.x, real(du.x), fma(p.y, real(du.y), p.z * du.z));
   const Real v = fma(p.x, real(dv.x), fma(p.y, real(dv.y), p.z * dv.z));
-  const Real slack = (abs_real(q.x) + abs_real(q.y) + abs_real(q.z) + t) * 2.384185791015625e-7f;
-  const Real reach_u = fma(slack, real(fabs(du.x) + fabs(du.y) + fabs(du.z)), real(0.5f));
-  const Real reach_v = fma(slack, real(fabs(dv.x) + fabs(dv.y) + fabs(dv.z)), real(0.5f));
+  const Real reach_u = fma(t, real(quad->growth_u), real(quad->reach_u));
+  const Real reach_v = fma(t, real(quad->growth_v), real(quad->reach_v));
   const Mask inside = (abs_real(u - 0.5f) <= reach_u) & (abs_real(v - 0.5f) <= reach_v) & (t > real(0.0f));
   return inside ? t : real(0.0f);
 }

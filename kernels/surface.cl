@@ -165,6 +165,24 @@ STOKES_FN void triangle_point(const SceneView* view, const Hit* hit, Int i, Mask
   }
 }
 
+/// The surface that a primitive belongs to, in the lanes of m; 0 elsewhere.
+STOKES_FN Int surface_of(const SceneView* view, Int primitive, Mask m) {
+  const int spheres = first_sphere(view), ellipsoids = first_ellipsoid(view), triangles = first_triangle(view);
+  Int surface = integer(0);
+#define STOKES_SURFACE_CASE(present, first, end, records, type, word)                                                          \
+  if (present) {                                                                                                               \
+    const Mask is = m & (primitive >= integer(first)) & (primitive < integer(end));                                            \
+    const Int at = own_index(is, primitive, first) * (int)(sizeof(type) / 4) + word;                                           \
+    if (any(is)) surface = is ? gather_int((const __global uint*)view->records, at) : surface;                                 \
+  }
+  STOKES_SURFACE_CASE(SCENE_HAS_QUADS, 0, spheres, quads, Quad, 19)
+  STOKES_SURFACE_CASE(SCENE_HAS_SPHERES, spheres, ellipsoids, spheres, Sphere, 13)
+  STOKES_SURFACE_CASE(SCENE_HAS_ELLIPSOIDS, ellipsoids, triangles, ellipsoids, Ellipsoid, 24)
+  STOKES_SURFACE_CASE(SCENE_HAS_TRIANGLES, triangles, 0x7fffffff, triangles, Triangle, 3)
+#undef STOKES_SURFACE_CASE
+  return surface;
+}
+
 /// What a hit of the ray (o, d) found, in the lanes of m that have a hit.
 STOKES_FN SurfacePoint surface_point(const SceneView* view, Real3 o, Real3 d, Hit hit, Mask m) {
   const int spheres = first_sphere(view), ellipsoids = first_ellipsoid(view), triangles = first_triangle(view);

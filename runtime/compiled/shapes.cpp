@@ -6,6 +6,16 @@
 
 namespace stokes::compiled {
 
+void set_quad_reach(layout::Quad& q) {
+  constexpr double kRounding = 0x1p-22;
+  const auto sum = [](layout::Vec3 a) { return std::abs(double(a.x)) + std::abs(double(a.y)) + std::abs(double(a.z)); };
+  const double extent = sum(q.edge_u) + sum(q.edge_v);
+  q.reach_u = float(0.5 + kRounding * extent * sum(q.dual_u));
+  q.reach_v = float(0.5 + kRounding * extent * sum(q.dual_v));
+  q.growth_u = float(kRounding * (1 + std::sqrt(3.0)) * sum(q.dual_u));
+  q.growth_v = float(kRounding * (1 + std::sqrt(3.0)) * sum(q.dual_v));
+}
+
 std::optional<layout::Quad> make_quad(const Affine& to_world, double width, double height, bool flip) {
   // The corners as the device will have them; everything else follows from these floats.
   layout::Quad q{};
@@ -30,6 +40,7 @@ std::optional<layout::Quad> make_quad(const Affine& to_world, double width, doub
   q.u0 = float(dot(to_double(q.dual_u), corner));
   q.v0 = float(dot(to_double(q.dual_v), corner));
   q.light = STOKES_NONE;
+  set_quad_reach(q);
   return q;
 }
 

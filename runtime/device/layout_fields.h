@@ -5,7 +5,8 @@
 // clang-format off
 #define STOKES_LAYOUT_STRUCTS(S)                                                                                              \
   S(Vec3, F(x) F(y) F(z))                                                                                                     \
-  S(Quad, F(normal) F(offset) F(dual_u) F(u0) F(dual_v) F(v0) F(corner) F(area) F(edge_u) F(surface) F(edge_v) F(light))      \
+  S(Quad, F(normal) F(offset) F(dual_u) F(u0) F(dual_v) F(v0) F(corner) F(area) F(edge_u) F(surface) F(edge_v) F(light)       \
+           F(reach_u) F(growth_u) F(reach_v) F(growth_v))                                                                     \
   S(Sphere, F(center) F(radius) F(to_local) F(surface) F(light) F(flip))                                                      \
   S(Ellipsoid, F(to_local) F(to_world) F(surface) F(light) F(flip) F(area))                                                   \
   S(Triangle, F(v0) F(v1) F(v2) F(surface) F(light) F(area) F(mesh) F(padding))                                               \

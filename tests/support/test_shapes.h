@@ -2,6 +2,7 @@
 #pragma once
 #include <random>
 
+#include "compiled/shapes.h"
 #include "math/vec.h"
 #include "support/test_meshes.h"
 
@@ -24,6 +25,7 @@ inline layout::Quad make_quad(Vec3d corner, Vec3d u, Vec3d v) {
   q.v0 = float(dot(dv, corner));
   q.area = float(length(cross(u, v)));
   q.light = STOKES_NONE;
+  compiled::set_quad_reach(q);
   return q;
 }
 
