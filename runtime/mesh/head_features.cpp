@@ -27,6 +27,7 @@ double lip_border(double x, bool upper) {
 }  // namespace
 
 double HeadFeatures::nose(double d, Vec3d p, Vec3d m) const {
+  if (length_squared(p - Vec3d{0, -22, 88}) > 52 * 52) return d;  // farther than the nose and its blends reach; likewise below
   const double ty = kTip.y, tz = kTip.z, a = kNoseHalf;
   d = smooth_min(d, ellipsoid(p, {0, -30, 80}, {18.5, 27, 18}), 12);
   d = smooth_min(d, dorsum(p), 8);
@@ -38,6 +39,7 @@ double HeadFeatures::nose(double d, Vec3d p, Vec3d m) const {
 
 double HeadFeatures::lips(double d, Vec3d p, Vec3d m) const {
   const double x = m.x, y = m.y, z = m.z;
+  if (length_squared(m - Vec3d{12, -72, 94}) > 52 * 52) return d;
   const double upper = smooth_min(upper_lip(m), ellipsoid(p, {0, kMouthY + 3.4, 102.2}, {6, 4.6, 6.0}), 4);  // with the tubercle
   d = carve(d, lip_seat(m), 5);
   d = smooth_min(d, smooth_min(upper, lower_lip(m), 1), 4.5);
@@ -57,6 +59,7 @@ double HeadFeatures::lips(double d, Vec3d p, Vec3d m) const {
 
 double HeadFeatures::eyes(double d, Vec3d m) const {
   const double x = m.x, y = m.y, gate = smooth_step(55, 68, m.z);
+  if (length_squared(m - Vec3d{33, -2, 76}) > 48 * 48) return d;
   d = smooth_min(d, lid_fold(m), 7);
   d = smooth_min(d, ellipsoid(m, {kEyeX, -5, kEyeZ - 1.2}, {16.5, 13.2, 13.2}), 6);                           // globe under the lower lid
   // The upper lid lies over the globe and ends at the lashes: crisp there, soft under the brow.

@@ -77,7 +77,7 @@ const std::vector<std::vector<Polygon>>& case_table() {
 Vec3d crossing(Vec3d a, Vec3d b, double fa, double fb, double level, const Field* field) {
   double t0 = 0, t1 = 1, t = (level - fa) / (fb - fa);
   if (field)
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 2; i++) {
       const double f = (*field)(a + (b - a) * t);
       if ((f < level) == (fa < level)) t0 = t, fa = f;
       else t1 = t, fb = f;
@@ -90,6 +90,33 @@ Vec3d crossing(Vec3d a, Vec3d b, double fa, double fb, double level, const Field
 Vec3d gradient(const Field& f, Vec3d p, double h) {
   return {f({p.x + h, p.y, p.z}) - f({p.x - h, p.y, p.z}), f({p.x, p.y + h, p.z}) - f({p.x, p.y - h, p.z}),
           f({p.x, p.y, p.z + h}) - f({p.x, p.y, p.z - h})};
+}
+
+// Evens out the triangles: marching cubes leaves slivers wherever the surface passes close to a corner of the grid. Each vertex slides along
+// the surface towards the middle of its neighbours and returns to the level by a secant step.
+void relax(MeshData& mesh, const Field& field, double level, double step) {
+  constexpr int kRounds = 3;
+  const std::size_t count = mesh.positions.size();
+  for (int round = 0; round < kRounds; round++) {
+    std::vector<Vec3d> normals(count), middles(count);
+    std::vector<int> neighbours(count);
+    for (const auto& t : mesh.triangles) {
+      const Vec3d a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]], n = cross(b - a, c - a);
+      for (int s = 0; s < 3; s++) {
+        normals[t[s]] += n;
+        middles[t[s]] += mesh.positions[t[(s + 1) % 3]] + mesh.positions[t[(s + 2) % 3]];
+        neighbours[t[s]] += 2;
+      }
+    }
+    for (std::size_t i = 0; i < count; i++) {
+      if (!(length(normals[i]) > 0)) continue;
+      const Vec3d n = normalize(normals[i]), to_middle = middles[i] / neighbours[i] - mesh.positions[i];
+      Vec3d p = mesh.positions[i] + (to_middle - n * dot(n, to_middle)) * 0.7;
+      const double h = 0.1 * step, f = field(p), slope = (field(p + n * h) - f) / h;
+      if (slope > 0.3) p += n * std::clamp((level - f) / slope, -0.5 * step, 0.5 * step);
+      mesh.positions[i] = p;
+    }
+  }
 }
 
 }  // namespace
@@ -131,11 +158,12 @@ MeshData isosurface(const Grid& g, double level, const Field* refine) {
           }
         }
       }
-  if (refine)
-    for (const Vec3d& p : mesh.positions) {
-      const Vec3d n = gradient(*refine, p, 0.25 * g.step);
-      mesh.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
-    }
+  if (!refine) return mesh;
+  relax(mesh, *refine, level, g.step);
+  for (const Vec3d& p : mesh.positions) {
+    const Vec3d n = gradient(*refine, p, 0.25 * g.step);
+    mesh.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
+  }
   return mesh;
 }
 

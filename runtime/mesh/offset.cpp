@@ -5,12 +5,26 @@
 
 #include "mesh/isosurface.h"
 #include "mesh/mesh_distance.h"
+#include "mesh/shell_repair.h"
 
 namespace stokes {
 namespace {
 
 Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
   return cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
+}
+
+// A mesh that keeps its connectivity is taken when no face is flipped and no larger share of its faces and vertices is off by over 5 %.
+constexpr double kAcceptedFaults = 0.02;
+
+bool worse(const ShellFaults& a, const ShellFaults& b) { return a.flipped != b.flipped ? a.flipped > b.flipped : a.off > b.off; }
+
+std::vector<Vec3d> vertex_normals(const MeshData& m) {
+  std::vector<Vec3d> normals(m.positions.size());
+  for (const auto& t : m.triangles)
+    for (const std::uint32_t v : t) normals[v] += face_normal(m, t);
+  for (Vec3d& n : normals) n = length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0};
+  return normals;
 }
 
 double mean_edge(const MeshData& m) {
@@ -42,7 +56,7 @@ MeshData shift_faces(const MeshData& mesh, double d) {
   MeshData out = mesh;
   for (std::size_t i = 0; i < sums.size(); i++) {
     Normal s = sums[i];
-    const double e = 1e-3 * (s.xx + s.yy + s.zz);  // a flat neighbourhood leaves the tangent open: stay put
+    const double e = 1e-2 * (s.xx + s.yy + s.zz);  // a flat neighbourhood leaves the tangent open: stay put
     if (e <= 0) continue;
     s.xx += e, s.yy += e, s.zz += e;
     const Vec3d c0{s.xx, s.xy, s.xz}, c1{s.xy, s.yy, s.yz}, c2{s.xz, s.yz, s.zz};
@@ -50,19 +64,6 @@ MeshData shift_faces(const MeshData& mesh, double d) {
     out.positions[i] += Vec3d{dot(s.b, cross(c1, c2)), dot(c0, cross(s.b, c2)), dot(c0, cross(c1, s.b))} / det;
   }
   return out;
-}
-
-// The share of triangles whose middle is more than 5 % off the distance d; 1 when a triangle faces the wrong way.
-double share_off(const MeshData& m, const MeshDistance& distance, double d) {
-  std::size_t off = 0;
-  for (const auto& t : m.triangles) {
-    const Vec3d middle = (m.positions[t[0]] + m.positions[t[1]] + m.positions[t[2]]) / 3;
-    Vec3d nearest;
-    const double s = distance(middle, &nearest);
-    if (dot(face_normal(m, t), (middle - nearest) * (s < 0 ? -1.0 : 1.0)) <= 0) return 1;
-    off += std::abs(s / d - 1) > 0.05;
-  }
-  return static_cast<double>(off) / static_cast<double>(m.triangles.size());
 }
 
 // The level d of the distance by marching cubes, its vertices moved onto the exact distance along the line from the nearest point.
@@ -110,19 +111,14 @@ MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
   for (const Vec3d& p : mesh.positions) lo = min(lo, p), hi = max(hi, p);
   // As fine as half the distance asks and the mesh itself is, never so fine that the grid outgrows memory.
   if (step <= 0) step = std::max(std::min(0.8 * mean_edge(mesh), std::abs(d)), length(hi - lo) / 500);
-  MeshData shifted = shift_faces(mesh, d);
-  const double off = share_off(shifted, distance, d);
-  MeshData out;
-  if (off > 0) out = distance_level(distance, lo, hi, d, step);
-  if (off < 1 && (out.triangles.empty() || off <= share_off(out, distance, d))) out = std::move(shifted);
-  if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
-  out.normals.clear();
-  for (const Vec3d& p : out.positions) {
-    Vec3d nearest;
-    const double s = distance(p, &nearest);
-    const Vec3d n = (p - nearest) * (s < 0 ? -1.0 : 1.0);
-    out.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
+  MeshData out = shift_faces(mesh, d);
+  const ShellFaults faults = repair_shell(out, distance, d);
+  if (faults.flipped > 0 || faults.off > kAcceptedFaults * static_cast<double>(out.triangles.size())) {
+    MeshData level = distance_level(distance, lo, hi, d, step);
+    if (worse(faults, shell_faults(level, distance, d))) out = std::move(level);
   }
+  if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
+  out.normals = vertex_normals(out);
   return out;
 }
 

@@ -8,9 +8,10 @@ namespace stokes {
 /// `flipped` counts the faces whose normal then points the other way.
 MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipped);
 
-/// The surface at signed distance d from the mesh (negative: inside), from the exact distance to its triangles on a grid of `step` (0: chosen
-/// from the mesh and d). No face flips, folds vanish, and every vertex lies at distance |d| to within `step`-independent rounding.
-/// The mesh must be closed. Throws std::runtime_error when it is not, or when nothing is left at that distance.
+/// The surface at signed distance d from the mesh (negative: inside). Thin shells keep the mesh's connectivity, with a few more vertices in
+/// sharp creases; where that folds, the level is cut anew from the exact distance on a grid of `step` (0: chosen from the mesh and d).
+/// No face flips; all but a few in ten thousand vertices and faces' middles are within 5 % of the distance. uvs and masks survive only
+/// in the first case. The mesh must be closed. Throws std::runtime_error when it is not, or when nothing is left at that distance.
 MeshData offset_by_distance_field(const MeshData& mesh, double d, double step = 0);
 
 }  // namespace stokes
