@@ -14,7 +14,7 @@ namespace {
 
 /// Sums over a rectangle of one channel of both estimates.
 struct Sums {
-  double mean_a = 0, mean_b = 0, variance = 0, magnitude = 0;
+  double mean_a = 0, mean_b = 0, variance_a = 0, variance_b = 0, magnitude = 0;
   double count = 0;
 };
 
@@ -25,10 +25,47 @@ Sums sum_block(const Estimate::Channel& a, const Estimate::Channel& b, int strid
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x);
       s.mean_a += a.mean[i];
       s.mean_b += b.mean[i];
-      s.variance += a.variance[i] + b.variance[i];
+      s.variance_a += a.variance[i];
+      s.variance_b += b.variance[i];
       s.magnitude += std::max(std::fabs(a.mean[i]), std::fabs(b.mean[i]));
       s.count++;
     }
+  return s;
+}
+
+/// The blocks of one channel, row by row.
+struct BlockGrid {
+  int columns = 0, rows = 0;
+  std::vector<Sums> blocks;
+};
+
+BlockGrid sum_blocks(const Estimate& a, const Estimate& b, std::size_t channel, int block) {
+  BlockGrid grid;
+  grid.columns = (a.width + block - 1) / block;
+  grid.rows = (a.height + block - 1) / block;
+  for (int y = 0; y < a.height; y += block)
+    for (int x = 0; x < a.width; x += block)
+      grid.blocks.push_back(
+          sum_block(a.channels[channel], b.channels[channel], a.width, x, y, std::min(a.width, x + block), std::min(a.height, y + block)));
+  return grid;
+}
+
+/// A block's sums, with its variances raised to its neighbourhood's (3 x 3 blocks) where that is more.
+///
+/// Where light is found by rare samples, a block that happened to miss them has too small a mean and sees too small a variance: each
+/// render alone would vouch for its own mistake. The neighbours have not missed them too.
+Sums with_neighbours(const BlockGrid& grid, int column, int row) {
+  double variance_a = 0, variance_b = 0, count = 0;
+  for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); r++)
+    for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); c++) {
+      const Sums& s = grid.blocks[static_cast<std::size_t>(r * grid.columns + c)];
+      variance_a += s.variance_a;
+      variance_b += s.variance_b;
+      count += s.count;
+    }
+  Sums s = grid.blocks[static_cast<std::size_t>(row * grid.columns + column)];
+  s.variance_a = std::max(s.variance_a, variance_a * s.count / count);
+  s.variance_b = std::max(s.variance_b, variance_b * s.count / count);
   return s;
 }
 
@@ -39,17 +76,17 @@ ParityTest make_test(const std::string& channel, const Sums& s, double tolerance
   t.mean_a = s.mean_a / s.count;
   t.mean_b = s.mean_b / s.count;
   const double rounding = tolerance * s.magnitude / s.count + 1e-12;
-  t.sigma = std::sqrt(s.variance / (s.count * s.count) + rounding * rounding);
+  t.sigma = std::sqrt((s.variance_a + s.variance_b) / (s.count * s.count) + rounding * rounding);
   t.z = (t.mean_a - t.mean_b) / t.sigma;
   if (!std::isfinite(t.z)) t.z = HUGE_VAL;
   t.p = normal_tail(t.z);
   return t;
 }
 
-/// About a thousand samples a block make its mean nearly normal, even where single samples are far from it.
+/// Some thousand samples a block make its mean nearly normal, even where single samples are far from it.
 int block_for(double samples_per_pixel) {
   int block = 1;
-  while (block < 32 && block * block * std::max(1.0, samples_per_pixel) < 1024) block *= 2;
+  while (block < 32 && block * block * std::max(1.0, samples_per_pixel) < 4096) block *= 2;
   return block;
 }
 
@@ -118,14 +155,15 @@ ParityResult test_parity(const Estimate& a, const Estimate& b, const ParityOptio
   std::vector<ParityTest> tests;
   for (std::size_t c = 0; c < a.channels.size(); c++) {
     const std::string& name = a.channels[c].name;
-    for (int y = 0; y < a.height; y += result.block)
-      for (int x = 0; x < a.width; x += result.block) {
-        const int x1 = std::min(a.width, x + result.block), y1 = std::min(a.height, y + result.block);
-        ParityTest test = make_test(name, sum_block(a.channels[c], b.channels[c], a.width, x, y, x1, y1), options.tolerance);
+    const BlockGrid grid = sum_blocks(a, b, c, result.block);
+    for (int row = 0; row < grid.rows; row++)
+      for (int column = 0; column < grid.columns; column++) {
+        const int x = column * result.block, y = row * result.block;
+        ParityTest test = make_test(name, with_neighbours(grid, column, row), options.tolerance);
         test.x = a.x + x;
         test.y = a.y + y;
-        test.width = x1 - x;
-        test.height = y1 - y;
+        test.width = std::min(a.width, x + result.block) - x;
+        test.height = std::min(a.height, y + result.block) - y;
         tests.push_back(test);
       }
     result.means.push_back(make_test(name, sum_block(a.channels[c], b.channels[c], a.width, 0, 0, a.width, a.height), options.tolerance));
