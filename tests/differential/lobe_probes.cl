@@ -2,6 +2,7 @@
 #include "conductor.cl"
 #include "dielectric.cl"
 #include "lambertian.cl"
+#include "layout.h"
 #include "metal.cl"
 #include "phase.cl"
 #include "phong.cl"
