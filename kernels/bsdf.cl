@@ -19,6 +19,17 @@ typedef struct {
   Spectrum color;   // albedo, scatter albedo; for fluorescence what is left of the base
 } Bsdf;
 
+/// What lanes have that are not at a surface.
+STOKES_FN Bsdf bsdf_none(void) {
+  Bsdf b;
+  b.type = integer(-1);
+  b.specular = no_lanes();
+  b.parameter = b.eta = real(1.0f);
+  b.conductor_eta = b.conductor_k = integer(0);
+  b.color = spectrum_constant(real(0.0f));
+  return b;
+}
+
 /// A sampled direction.
 typedef struct {
   Real3 wi;         // local

@@ -9,9 +9,11 @@
 #define STOKES_EMPTY_BALL (SCENE_HAS_MEDIA && SCENE_HAS_TRIANGLES && !SCENE_HAS_FLUORESCENT_MEDIA)
 #endif
 // In mean free paths: how far to look for surfaces, and below which radius looking was in vain.
-#define BALL_REACH 16.0f
-#define BALL_TOO_SMALL 1.0f
-#define BALL_PAUSE 3
+#ifndef BALL_REACH
+#define BALL_REACH 10.0f
+#define BALL_TOO_SMALL 1.5f
+#define BALL_PAUSE 5
+#endif
 // Only media much denser than the scene is large.
 #define BALL_DENSITY 0.1f
 

@@ -30,8 +30,24 @@ STOKES_FN Spectrum medium_extinction(const SceneView* view, Int index, const Spe
   return spectrum_constant(spectrum_eval1(view, table, SCENE_RGB ? real(0.0f) : lambda->v[0]));
 }
 
+/// Puts the masked lanes into vacuum.
+STOKES_FN void medium_leave(Mask mask, MediumState* m) {
+  m->index = mask ? integer(0) : m->index;
+  m->flags = mask ? integer((int)MEDIUM_ISOTROPIC) : m->flags;
+  m->mean_free_path = mask ? real(0.0f) : m->mean_free_path;
+  FOR_EACH_WAVELENGTH(k) {
+    m->albedo.v[k] = mask ? real(0.0f) : m->albedo.v[k];
+    m->sigma_t.v[k] = mask ? real(0.0f) : m->sigma_t.v[k];
+    m->g.v[k] = mask ? real(0.0f) : m->g.v[k];
+  }
+}
+
 /// Reads a medium's coefficients for the masked lanes.
 STOKES_FN void medium_load(const SceneView* view, Int index, const Throughput* t, Mask mask, MediumState* m) {
+  if (!any(mask & (index != integer(0)))) {
+    medium_leave(mask, m);
+    return;
+  }
   const __global uint* media = (const __global uint*)view->media;
   const Int at = (mask ? index : integer(0)) * MEDIUM_WORDS;
   const Int flags = gather_int(media, at + 3);

@@ -30,7 +30,8 @@ STOKES_FN Vertex vertex_make(const SceneView* view, const PathState* path, const
   }
   make_frame(v.axis, &v.tangent, &v.bitangent);
   v.wo = to_local(v.axis, v.tangent, v.bitangent, neg3(path->direction));
-  v.bsdf = bsdf_load(view, material, point, outside, &path->throughput.lambda, at_surface);
+  v.bsdf = bsdf_none();
+  if (!SCENE_HAS_MEDIA || any(at_surface)) v.bsdf = bsdf_load(view, material, point, outside, &path->throughput.lambda, at_surface);
   return v;
 }
 
