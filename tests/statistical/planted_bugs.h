@@ -17,8 +17,8 @@ inline std::ostream& operator<<(std::ostream& out, const PlantedBug& b) { return
 inline constexpr PlantedBug kPlantedBugs[] = {
     // ---- Surfaces ------------------------------------------------------------------------------------------------
     {"albedo_one_percent_more", "white_furnace_sphere_mis_spectral", "material.cl",
-     "b.color = color_eval(view, material_uint(view, material, 1), point, lambda, mask);",
-     "b.color = color_eval(view, material_uint(view, material, 1), point, lambda, mask);\n"
+     "b.color = color_eval(view, record[1], point, lambda, mask);",
+     "b.color = color_eval(view, record[1], point, lambda, mask);\n"
      "  FOR_EACH_WAVELENGTH(k) b.color.v[k] = b.color.v[k] * 1.01f;"},
     {"wrong_fresnel_term", "coated_n1_5_rho0_5_at_45_rgb", "fresnel.cl", "fma(parallel, parallel, perpendicular * perpendicular)",
      "fma(perpendicular, perpendicular, perpendicular * perpendicular)"},

@@ -2,7 +2,6 @@
 #include "support/backends.h"
 
 #include <cstdlib>
-#include <stdexcept>
 #include <thread>
 
 #include "device/renderer.h"
@@ -21,8 +20,9 @@ Film empty_film(const CompiledScene& scene) {
 }  // namespace
 
 std::uint32_t seed_of(const std::string& name) {
+  const char* salt = std::getenv("STOKES_SEED_SALT");
   std::uint32_t h = 2166136261u;
-  for (const char c : name) h = (h ^ std::uint32_t(static_cast<unsigned char>(c))) * 16777619u;
+  for (const char c : name + (salt ? salt : "")) h = (h ^ std::uint32_t(static_cast<unsigned char>(c))) * 16777619u;
   return h;
 }
 
@@ -41,7 +41,7 @@ Film render_by_opencl(const CompiledScene& scene, int spp, std::uint32_t seed, c
   Film film = empty_film(scene);
   renderer.render_samples(film, seed, 0, spp, nullptr);
   if (const FilmTotals totals = film_totals(film); totals.invalid > 0)
-    throw std::runtime_error(std::to_string(totals.invalid) + " invalid samples, the first at pixel " + std::to_string(totals.first_invalid_x) + ", " +
+    throw InvalidSamples(std::to_string(totals.invalid) + " invalid samples, the first at pixel " + std::to_string(totals.first_invalid_x) + ", " +
                              std::to_string(totals.first_invalid_y));
   return film;
 }
