@@ -56,8 +56,11 @@ MeshData shift_faces(const MeshData& mesh, double d) {
   MeshData out = mesh;
   for (std::size_t i = 0; i < sums.size(); i++) {
     Normal s = sums[i];
-    const double e = 1e-2 * (s.xx + s.yy + s.zz);  // a flat neighbourhood leaves the tangent open: stay put
-    if (e <= 0) continue;
+    // A flat neighbourhood leaves the tangent open: the solution is held to a step along the mean normal that reaches the planes on average.
+    const double weight = s.xx + s.yy + s.zz, e = 1e-2 * weight;
+    const double mean = length(s.b) / std::abs(d);  // |sum of w n|
+    if (e <= 0 || mean <= 0) continue;
+    s.b += s.b * (e * std::min(weight / mean, 2.0) / mean);
     s.xx += e, s.yy += e, s.zz += e;
     const Vec3d c0{s.xx, s.xy, s.xz}, c1{s.xy, s.yy, s.yz}, c2{s.xz, s.yz, s.zz};
     const double det = dot(c0, cross(c1, c2));
