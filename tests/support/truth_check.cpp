@@ -1,6 +1,7 @@
 // Measuring truth cases. See truth_scenes.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -39,13 +40,34 @@ std::vector<TruthResult> run_truth_case(const TruthCase& c, const Backend& backe
   return results;
 }
 
+namespace {
+
+bool agrees(const TruthResult& r) {
+  return std::abs(r.mean - r.expected) <= kStandardErrors * r.standard_error + kTableAccuracy * std::abs(r.expected);
+}
+
+void print(const TruthCase& c, const TruthResult& r) {
+  std::printf("%s %s: expected %.7g, got %.7g +- %.2g (z %.2f, threshold %.0f, p %.3g)\n", c.name.c_str(), r.label.c_str(), r.expected, r.mean,
+              r.standard_error, r.z, kStandardErrors, r.p);
+}
+
+}  // namespace
+
+// Among hundreds of measurements one in 370 lies beyond three standard errors by chance. One that does is measured again with four times
+// the samples and another seed, and that is final: a real bias grows to twice as many standard errors, chance does not come twice.
 void check_truth_case(const TruthCase& c, const Backend& backend, std::uint32_t seed) {
-  for (const TruthResult& r : run_truth_case(c, backend, seed)) {
-    const double allowed = kStandardErrors * r.standard_error + kTableAccuracy * std::abs(r.expected);
-    std::printf("%s %s: expected %.7g, got %.7g +- %.2g (z %.2f, threshold %.0f, p %.3g)\n", c.name.c_str(), r.label.c_str(), r.expected, r.mean,
-                r.standard_error, r.z, kStandardErrors, r.p);
-    EXPECT_LE(std::abs(r.mean - r.expected), allowed) << c.name << " " << r.label << " (" << c.source << "): expected " << r.expected << ", got "
-                                                      << r.mean << " +- " << r.standard_error << ", p " << r.p;
+  std::vector<TruthResult> results = run_truth_case(c, backend, seed);
+  for (const TruthResult& r : results) print(c, r);
+  if (!std::all_of(results.begin(), results.end(), agrees)) {
+    TruthCase again = c;
+    again.samples *= 4;
+    std::printf("%s: again, with %d samples\n", c.name.c_str(), again.samples);
+    results = run_truth_case(again, backend, seed + 1000003u);
+    for (const TruthResult& r : results) print(c, r);
+  }
+  for (const TruthResult& r : results) {
+    EXPECT_TRUE(agrees(r)) << c.name << " " << r.label << " (" << c.source << "): expected " << r.expected << ", got " << r.mean << " +- "
+                           << r.standard_error << ", p " << r.p;
     if (r.expected != 0) {
       EXPECT_LE(r.standard_error, kLargestRelativeError * std::abs(r.expected)) << c.name << ": too noisy to say anything";
     }
