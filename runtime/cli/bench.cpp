@@ -146,6 +146,7 @@ std::pair<ordered_json, int> run_apart(const BenchCase& c, const BenchOptions& o
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (WIFSIGNALED(status)) std::fprintf(stderr, "error: %s: the process that rendered it was ended by signal %d\n", c.name.c_str(), WTERMSIG(status));
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : kExitInternal;
   return {code == kExitDone ? ordered_json::parse(text) : ordered_json(), code};
 }
