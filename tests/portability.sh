@@ -61,8 +61,9 @@ same_bits() {
 
 # Intel's wheel brings a newer TBB than Debian's, which Embree loads first: ours must find the newer one, and only that.
 install_intel() {
-  [ -e "$intel_dir/lib/libintelocl.so" ] && return
-  python3 -m venv "$intel_dir" && "$intel_dir/bin/pip" install -q intel-opencl-rt intel-cmplr-lib-rt || return
+  if [ ! -e "$intel_dir/lib/libintelocl.so" ]; then
+    python3 -m venv "$intel_dir" && "$intel_dir/bin/pip" install -q intel-opencl-rt intel-cmplr-lib-rt || return
+  fi
   mkdir -p "$intel_dir/tbb" && ln -sf "$intel_dir"/lib/libtbb.so.12 "$intel_dir/tbb/"
 }
 
