@@ -66,7 +66,6 @@ inline constexpr PlantedBug kPlantedBugs[] = {
     {"shadow_ray_in_the_wrong_medium", "fog_parity", "direct.cl", "(out ? point->medium_outside : point->medium_inside)",
      "(out ? point->medium_inside : point->medium_outside)"},
     {"shadow_ray_keeps_its_medium", "fog_parity", "shadow.cl", "ray->medium = walking ? (out ? point.medium_outside : point.medium_inside) : ray->medium;", ""},
-    {"chromatic_path_density_forgotten", "chromatic_half_space", "medium.cl", "t->density.v[k] * event", "t->density.v[k]"},
 
     // ---- Fluorescence --------------------------------------------------------------------------------------------
     {"excitation_density_forgotten", "fluorescent_patch_2_mis", "fluorescence.cl", "(photon ? li : real(1.0f)) * scale / pdf", "(photon ? li : real(1.0f)) * scale"},
