@@ -57,10 +57,10 @@ TEST_P(SceneParity, Agrees) {
   const ParityResult result = test_parity(estimate_of(device), estimate_of(truth), options);
   std::printf("%s", describe(result).c_str());
   EXPECT_TRUE(result.agree) << name << ": " << describe(result);
-  // Both must have seen something.
+  // Both must have seen something; saturated colours may be negative.
   for (const ParityTest& mean : result.means)
     if (mean.channel == "G") {
-      EXPECT_GT(mean.mean_b, 0) << name << " is black";
+      EXPECT_NE(mean.mean_b, 0) << name << " is black";
     }
 }
 
