@@ -21,6 +21,7 @@ typedef struct {
   Real length;
   Hit hit;
   Mask at_surface, in_medium, escaped;
+  Mask glowing;  // in_medium, at a dye
 } Flight;
 
 /// The lanes whose whole flight lies inside their ball without surfaces: these need not be traced.
@@ -105,7 +106,7 @@ STOKES_FN Mask dyes_along(const SceneView* view, PathState* path, Real length, M
   dye_excite(view, t, found ? c.dye : integer(0), found ? c.chosen / c.total : real(1.0f), u_lambda, found, &excited);
   *t = excited;
   path->fluoresced = path->fluoresced | found;
-  // Coefficients at the new wavelengths; light is given off in all directions alike.
+  // Coefficients at the new wavelengths.
   medium_load(view, path->medium.index, t, found, &path->medium);
   return found;
 }
@@ -131,16 +132,16 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
   if (any(tracing)) f.hit = closest_hit(view, path->origin, path->direction, reach, path->exclude, tracing);
   count_lanes(counters, COUNTER_RAYS, tracing);
   f.at_surface = path->alive & (f.hit.primitive >= integer(0));
-  Mask glowing = no_lanes();
+  f.glowing = no_lanes();
   if (SCENE_HAS_FLUORESCENT_MEDIA) {
-    if (any(dyed)) glowing = dyes_along(view, path, f.at_surface ? f.hit.t : real(STOKES_FAR), dyed, &f.length);
-    f.at_surface = f.at_surface & !glowing & (f.hit.t < f.length);
+    if (any(dyed)) f.glowing = dyes_along(view, path, f.at_surface ? f.hit.t : real(STOKES_FAR), dyed, &f.length);
+    f.at_surface = f.at_surface & !f.glowing & (f.hit.t < f.length);
   }
-  f.in_medium = SCENE_HAS_MEDIA ? path->alive & !f.at_surface & (glowing | (f.length < real(STOKES_FAR))) : no_lanes();
+  f.in_medium = SCENE_HAS_MEDIA ? path->alive & !f.at_surface & (f.glowing | (f.length < real(STOKES_FAR))) : no_lanes();
   f.escaped = path->alive & !f.at_surface & !f.in_medium;
   f.length = f.at_surface ? f.hit.t : f.length;
   if (SCENE_HAS_MEDIA) {
-    medium_travel(&path->medium, &path->throughput, f.length, path->alive & !glowing, f.in_medium & !glowing);
+    medium_travel(&path->medium, &path->throughput, f.length, path->alive & !f.glowing, f.in_medium & !f.glowing);
     count_lanes(counters, COUNTER_SCATTERINGS, f.in_medium);
   }
   return f;

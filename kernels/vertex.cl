@@ -7,6 +7,7 @@
 typedef struct {
   Mask active;     // lanes that scatter here
   Mask in_medium;  // the rest of them is at a surface
+  Mask glowing;    // in_medium, at a dye: light comes and goes in all directions alike, whatever the medium's phase function
   Real3 position;
   Real3 front;                    // surfaces: the geometric normal on wo's side
   Real3 axis, tangent, bitangent; // local frame: z is the shading normal on wo's side, or in media the direction of travel
@@ -16,10 +17,11 @@ typedef struct {
 
 /// The vertex of the lanes `in_medium` (at `end`) and `at_surface` (at `point`, material resolved).
 STOKES_FN Vertex vertex_make(const SceneView* view, const PathState* path, const SurfacePoint* point, Int material, Real3 end, Mask in_medium,
-                             Mask at_surface) {
+                             Mask glowing, Mask at_surface) {
   Vertex v;
   v.active = in_medium | at_surface;
   v.in_medium = in_medium;
+  v.glowing = glowing;
   const Mask outside = dot3(path->direction, point->ng) < real(0.0f);
   v.front = select3(outside, point->ng, neg3(point->ng));
   v.axis = select3(outside, point->ns, neg3(point->ns));
@@ -43,17 +45,24 @@ STOKES_FN Mask sides_agree(const Vertex* v, Real3 world, Real3 wi) {
   return (front & up) | (!front & !up);
 }
 
+/// The mean cosine of slot k's phase function at the vertex.
+STOKES_FN Real vertex_g(const PathState* path, const Vertex* v, int k) {
+  const Real g = medium_g(&path->medium, k);
+  if (!SCENE_HAS_FLUORESCENT_MEDIA) return g;
+  return v->glowing ? real(0.0f) : g;
+}
+
 /// Value and density of a medium's phase functions. In chromatic media each wavelength has its own: *pdf receives their mean, weighted by
 /// the path's densities, which does not depend on which wavelength is the hero; a heuristic's weights must not either.
-STOKES_FN Spectrum phase_eval(const PathState* path, Real cosine, Real* pdf) {
+STOKES_FN Spectrum phase_eval(const PathState* path, const Vertex* v, Real cosine, Real* pdf) {
   if (!SCENE_HAS_CHROMATIC_MEDIA) {
-    *pdf = phase_hg_pdf(path->medium.g.v[0], cosine);
+    *pdf = phase_hg_pdf(vertex_g(path, v, 0), cosine);
     return spectrum_constant(*pdf);
   }
   Spectrum p;
   Real sum = real(0.0f), total = real(0.0f);
   FOR_EACH_WAVELENGTH(k) {
-    p.v[k] = phase_hg_eval(path->medium.g.v[k], cosine);
+    p.v[k] = phase_hg_eval(vertex_g(path, v, k), cosine);
     sum = fma(path->throughput.density.v[k], p.v[k], sum);
     total += path->throughput.density.v[k];
   }
@@ -69,7 +78,7 @@ STOKES_FN Spectrum vertex_eval(const SceneView* view, const PathState* path, con
   *pdf = surface ? *pdf : real(0.0f);
   if (SCENE_HAS_MEDIA && any(v->in_medium)) {
     Real phase_density;
-    const Spectrum phase = phase_eval(path, lobe.z, &phase_density);
+    const Spectrum phase = phase_eval(path, v, lobe.z, &phase_density);
     *pdf = v->in_medium ? phase_density : *pdf;
     f = select_spectrum(v->in_medium, phase, f);
   }
@@ -85,10 +94,11 @@ STOKES_FN BsdfSample vertex_sample(const SceneView* view, const PathState* path,
   s.pdf = real(1.0f);
   if (any(surface)) s = bsdf_sample(view, &v->bsdf, &path->throughput.lambda, v->wo, u1, u2, u3, surface);
   if (SCENE_HAS_MEDIA && any(v->in_medium)) {
-    const Real g = SCENE_HAS_CHROMATIC_MEDIA ? hero_value(&path->throughput, &path->medium.g) : path->medium.g.v[0];
+    Real g = SCENE_HAS_CHROMATIC_MEDIA ? hero_value(&path->throughput, &path->medium.g) : path->medium.g.v[0];
+    if (SCENE_HAS_FLUORESCENT_MEDIA) g = v->glowing ? real(0.0f) : g;
     const Real3 wi = phase_hg_sample(g, u1, u2);
     Real pdf;
-    const Spectrum phase = phase_eval(path, wi.z, &pdf);
+    const Spectrum phase = phase_eval(path, v, wi.z, &pdf);
     s.wi = select3(v->in_medium, wi, s.wi);
     s.pdf = v->in_medium ? pdf : s.pdf;
     const Real scale = SCENE_HAS_CHROMATIC_MEDIA ? real(1.0f) / phase_hg_eval(g, wi.z) : real(1.0f);

@@ -117,7 +117,8 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
     if (!any(scatters)) continue;
     path.bounces = scatters ? path.bounces + 1 : path.bounces;
     const Real3 end = madd3(origin, path.direction, flight.length);
-    Vertex vertex = vertex_make(view, &path, &point, material, end, scatters & flight.in_medium, scatters & at_surface);
+    Vertex vertex = vertex_make(view, &path, &point, material, end, scatters & flight.in_medium, scatters & flight.glowing,
+                                scatters & at_surface);
     const Mask dispersive = material_is_dispersive(view, material, scatters & bsdf_is(&vertex.bsdf, MATERIAL_DIELECTRIC));
     if (SCENE_HAS_DISPERSION && any(dispersive)) end_secondaries(&path.throughput, dispersive);
     Excitation excitation;
