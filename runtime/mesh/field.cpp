@@ -8,18 +8,28 @@ namespace stokes {
 
 namespace {
 
-constexpr int kBlock = 6;  // grid points along the side of a block that is decided as one
+constexpr int kBlock = 8;  // grid points along the side of the largest block that is decided as one
 
-void sample_block(const Field& field, Grid& g, int bi, int bj, int bk, double level, double lipschitz) {
-  const int i0 = bi * kBlock, j0 = bj * kBlock, k0 = bk * kBlock;
-  const int i1 = std::min(i0 + kBlock, g.nx), j1 = std::min(j0 + kBlock, g.ny), k1 = std::min(k0 + kBlock, g.nz);
+// Fills the block of n points a side that begins at (i0, j0, k0): with one value when the level is far, else by its eight parts.
+void sample_block(const Field& field, Grid& g, int i0, int j0, int k0, int n, double level, double lipschitz) {
+  if (i0 >= g.nx || j0 >= g.ny || k0 >= g.nz) return;
+  if (n == 1) {
+    g.values[g.index(i0, j0, k0)] = static_cast<float>(field(g.point(i0, j0, k0)));
+    return;
+  }
+  const int i1 = std::min(i0 + n, g.nx), j1 = std::min(j0 + n, g.ny), k1 = std::min(k0 + n, g.nz);
   const Vec3d a = g.point(i0, j0, k0), b = g.point(i1 - 1, j1 - 1, k1 - 1);
   const double middle = field((a + b) * 0.5);
   // One more step on every side: the neighbouring block's points must agree on the sign.
-  const bool far = std::abs(middle - level) > lipschitz * (0.5 * length(b - a) + g.step);
-  for (int k = k0; k < k1; k++)
-    for (int j = j0; j < j1; j++)
-      for (int i = i0; i < i1; i++) g.values[g.index(i, j, k)] = static_cast<float>(far ? middle : field(g.point(i, j, k)));
+  if (std::abs(middle - level) > lipschitz * (0.5 * length(b - a) + g.step)) {
+    for (int k = k0; k < k1; k++)
+      for (int j = j0; j < j1; j++)
+        for (int i = i0; i < i1; i++) g.values[g.index(i, j, k)] = static_cast<float>(middle);
+    return;
+  }
+  const int h = n > 2 ? n / 2 : 1;
+  for (int part = 0; part < 8; part++)
+    sample_block(field, g, i0 + (part & 1) * h, j0 + ((part >> 1) & 1) * h, k0 + (part >> 2) * h, h, level, lipschitz);
 }
 
 }  // namespace
@@ -40,7 +50,7 @@ Grid sample_field(const Field& field, Vec3d lo, Vec3d hi, double step, double le
     pool.emplace_back([&, t] {
       for (int k = static_cast<int>(t); k < bz; k += static_cast<int>(threads))
         for (int j = 0; j < by; j++)
-          for (int i = 0; i < bx; i++) sample_block(field, g, i, j, k, level, lipschitz);
+          for (int i = 0; i < bx; i++) sample_block(field, g, i * kBlock, j * kBlock, k * kBlock, kBlock, level, lipschitz);
     });
   pool.clear();
   return g;
