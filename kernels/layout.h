@@ -226,6 +226,9 @@ LAYOUT_CHECK(Region, 32);
 // Every surface that borders on it is refracting or opaque, none shines into it and at least one is a dielectric: from inside, light
 // is found by hitting it and not sought. A matter of speed only: both ways are unbiased.
 #define MEDIUM_SEALED 4u
+// So thin against the scene, in which there are lamps, that most flights pass it: the lamps' light is sought along each flight besides.
+// A matter of noise only.
+#define MEDIUM_THIN 8u
 // A homogeneous participating medium, coefficients per scene unit; medium 0 is vacuum (all coefficients zero).
 typedef struct {
   uint sigma_t;  // spectrum tables; sigma_t includes what its dyes absorb

@@ -102,11 +102,13 @@ void complete_excitations(Compilation& c);
 void compile_surfaces(Compilation& c);
 void append_mesh(Compilation& c, const SurfaceDescription& surface, std::uint32_t index);
 
-// lights.cpp, environment.cpp
+// lights.cpp, environment.cpp, sealed.cpp, airlight.cpp
 /// Every emissive primitive, the background and the environment; powers, probabilities, the alias table.
 void compile_lights(Compilation& c);
 /// Marks the media that light enters by refraction alone. Needs the surfaces and the camera.
 void seal_media(Compilation& c);
+/// Marks the media in which lamps' light is sought along flights. Needs the lights and what seal_media found.
+void mark_thin_media(Compilation& c);
 /// Texels and CDFs of the environment; returns the mean radiance over the sphere.
 Curve compile_environment(Compilation& c);
 

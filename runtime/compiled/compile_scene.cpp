@@ -34,6 +34,7 @@ CompiledScene compile_scene(const SceneDescription& scene, const CompileOptions&
   // The lights' spectrum completes the dyes' excitations.
   compile_lights(c);
   seal_media(c);
+  mark_thin_media(c);
   complete_excitations(c);
   check_unused(c);
 

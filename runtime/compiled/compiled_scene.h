@@ -18,6 +18,7 @@ struct SceneFeatures {
   bool textures = false, blends = false, environment = false, background = false;
   bool media = false;          ///< any medium that is not vacuum
   bool chromatic_media = false;///< sigma_t or g depends on the wavelength
+  bool thin_media = false;     ///< any medium with MEDIUM_THIN
   bool interfaces = false;     ///< any index-matched boundary
   bool fluorescent_surfaces = false, fluorescent_media = false, reradiation = false;
   bool metal = false, conductor = false, smooth_dielectric = false, rough_dielectric = false, phong = false;

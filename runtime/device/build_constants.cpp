@@ -14,7 +14,7 @@ std::string build_constants(const CompiledScene& scene, const DeviceConstants& d
   define("FILM_CHANNELS", scene.header.film_channels);
   define("FILM_SPECTRAL", scene.header.spectral_bins > 0);
   // A structured binding must name every member: a new feature that is forgotten here does not compile.
-  const auto& [rgb, triangles, spheres, ellipsoids, quads, textures, blends, environment, background, media, chromatic_media, interfaces,
+  const auto& [rgb, triangles, spheres, ellipsoids, quads, textures, blends, environment, background, media, chromatic_media, thin_media, interfaces,
                fluorescent_surfaces, fluorescent_media, reradiation, metal, conductor, smooth_dielectric, rough_dielectric, phong,
                dispersion, emission_textures, smooth_normals, lens] = scene.features;
   define("SCENE_RGB", rgb);
@@ -28,6 +28,7 @@ std::string build_constants(const CompiledScene& scene, const DeviceConstants& d
   define("SCENE_HAS_BACKGROUND", background);
   define("SCENE_HAS_MEDIA", media);
   define("SCENE_HAS_CHROMATIC_MEDIA", chromatic_media);
+  define("SCENE_HAS_THIN_MEDIA", thin_media);
   define("SCENE_HAS_INTERFACES", interfaces);
   define("SCENE_HAS_FLUORESCENT_SURFACES", fluorescent_surfaces);
   define("SCENE_HAS_FLUORESCENT_MEDIA", fluorescent_media);

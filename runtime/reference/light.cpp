@@ -124,12 +124,23 @@ Lights::Lights(const CompiledScene& scene) : scene_(scene) {
   for (const layout::Light& light : scene.lights) cumulative_.push_back(sum += light.probability);
 }
 
-LightSample Lights::sample(Vec3d from, Wavelength w, Random& random) const {
+const layout::Light& Lights::choose(Random& random) const {
   // The probabilities in the tables sum to 1 but for rounding; the last light takes what is left.
   const double u = random.next() * cumulative_.back();
   const auto chosen = std::min<std::size_t>(cumulative_.size() - 1, static_cast<std::size_t>(
                           std::upper_bound(cumulative_.begin(), cumulative_.end(), u) - cumulative_.begin()));
-  const layout::Light& light = scene_.lights[chosen];
+  return scene_.lights[chosen];
+}
+
+std::optional<Lights::Place> Lights::sample_place(Random& random) const {
+  const layout::Light& light = choose(random);
+  const double u1 = random.next(), u2 = random.next();
+  if (light.type == layout::LIGHT_BACKGROUND || light.type == layout::LIGHT_ENVIRONMENT) return std::nullopt;
+  return Place{sample_area(scene_, light_primitive(scene_, light), u1, u2).position, std::sqrt(light.area)};
+}
+
+LightSample Lights::sample(Vec3d from, Wavelength w, Random& random) const {
+  const layout::Light& light = choose(random);
   const double u1 = random.next(), u2 = random.next();
   LightSample sample;
   switch (light.type) {

@@ -1,5 +1,6 @@
 // Light: emission met by a ray, and the choice of a direction towards a light. Knows nothing of what lies between.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "reference/intersect.h"
@@ -22,6 +23,12 @@ class Lights {
   explicit Lights(const CompiledScene& scene);
   /// Chooses a light by its power, then a direction from `from` towards it.
   LightSample sample(Vec3d from, Wavelength w, Random& random) const;
+  /// A point on a light that was chosen by its power, and the light's size; none if the choice fell on the surroundings.
+  struct Place {
+    Vec3d position;
+    double size = 0;
+  };
+  std::optional<Place> sample_place(Random& random) const;
   /// The density with which `sample` takes the direction from `from` to a point on a light's primitive.
   double pdf(const SurfacePoint& point, Vec3d from) const;
   /// The same for a direction that meets nothing: background and environment.
@@ -29,6 +36,8 @@ class Lights {
   bool empty() const { return scene_.lights.empty(); }
 
  private:
+  const layout::Light& choose(Random& random) const;
+
   const CompiledScene& scene_;
   std::vector<double> cumulative_;
 };

@@ -3,8 +3,10 @@
 #include "reference/volpath.h"
 
 #include <cmath>
+#include <optional>
 
 #include "reference/bsdf.h"
+#include "reference/equiangular.h"
 #include "reference/fluorescence.h"
 #include "reference/medium.h"
 #include "reference/phase.h"
@@ -41,10 +43,12 @@ class Path {
 
  private:
   bool step();
-  bool scatter_in_medium(const Flight& flight);
+  std::optional<Equiangular> equiangular(double t_max);
+  void add_airlight(const Equiangular& airlight);
+  bool scatter_in_medium(const Flight& flight, const std::optional<Equiangular>& airlight);
   bool scatter_at_surface(const SurfacePoint& point);
   bool begin_vertex();
-  void add_direct_light(const Vertex& vertex);
+  void add_direct_light(const Vertex& vertex, double share = 1);
   double shadow_transmittance(const Vertex& vertex, const LightSample& light) const;
   void leave(const Vertex& vertex, Vec3d wi, double weight, double pdf);
   void add_light(double value);
@@ -90,10 +94,12 @@ double Path::emission_weight(double light_pdf) const {
 bool Path::step() {
   // Fly to the next surface, unless the medium has something to say before it.
   const Hit hit = world_.traversal.closest_hit(ray_);
+  const std::optional<Equiangular> airlight = equiangular(hit.t);
+  if (airlight) add_airlight(*airlight);
   const Flight flight = medium_flight(scene_, medium_, hit.t, w_, random_);
   beta_ *= flight.weight;
   if (beta_ == 0) return false;
-  if (flight.end != Flight::End::Surface) return scatter_in_medium(flight);
+  if (flight.end != Flight::End::Surface) return scatter_in_medium(flight, airlight);
 
   // Nothing there: the background.
   if (!hit.found()) {
@@ -123,7 +129,31 @@ bool Path::begin_vertex() {
   return true;
 }
 
-bool Path::scatter_in_medium(const Flight& flight) {
+/// In thin media: towards a light somewhere along the way.
+std::optional<Equiangular> Path::equiangular(double t_max) {
+  if (!(scene_.media[medium_].flags & MEDIUM_THIN) || bounces_ >= scene_.header.max_bounces) return std::nullopt;
+  const auto light = world_.lights.sample_place(random_);
+  if (!light) return std::nullopt;
+  return Equiangular(ray_, light->position, 0.1 * light->size, t_max);
+}
+
+/// The density with which a flight scatters at the distance t.
+double collision_pdf(const MediumAt& m, double t) { return m.sigma_t * std::exp(-m.sigma_t * t); }
+
+/// Few flights scatter in a thin medium. So the light that would reach one of them straight from a light is estimated twice, where chance
+/// scatters the path (if it does) and here, where scattering towards the light is likely to count, and the two share it by the balance heuristic.
+void Path::add_airlight(const Equiangular& airlight) {
+  const double t = airlight.sample(random_.next());
+  const MediumAt m = medium_at(scene_, medium_, w_);
+  Vertex vertex;
+  vertex.position = ray_.o + ray_.d * t;
+  vertex.wo = -ray_.d;
+  vertex.medium = medium_;
+  vertex.g = m.g;
+  add_direct_light(vertex, m.sigma_s * std::exp(-m.sigma_t * t) / (airlight.pdf(t) + collision_pdf(m, t)));
+}
+
+bool Path::scatter_in_medium(const Flight& flight, const std::optional<Equiangular>& airlight) {
   if (!begin_vertex()) return false;
   Vertex vertex;
   vertex.position = ray_.o + ray_.d * flight.t;
@@ -136,7 +166,10 @@ bool Path::scatter_in_medium(const Flight& flight) {
     vertex.g = medium_at(scene_, medium_, w_).g;
   w_ = flight.wavelength;
 
-  if (next_event()) add_direct_light(vertex);
+  if (next_event()) {
+    const double pdf = collision_pdf(medium_at(scene_, medium_, w_), flight.t);
+    add_direct_light(vertex, airlight ? pdf / (pdf + airlight->pdf(flight.t)) : 1);
+  }
   const double u1 = random_.next(), u2 = random_.next();
   const Vec3d wi = phase_hg_sample(vertex.g, vertex.wo, u1, u2);
   leave(vertex, wi, 1, vertex.pdf(wi));
@@ -191,15 +224,15 @@ bool Path::survives_roulette() {
   return true;
 }
 
-/// Next-event estimation: one light, one direction towards it.
-void Path::add_direct_light(const Vertex& vertex) {
+/// Next-event estimation: one light, one direction towards it, times `share`.
+void Path::add_direct_light(const Vertex& vertex, double share) {
   if (world_.lights.empty()) return;
   const LightSample light = world_.lights.sample(vertex.position, w_, random_);
   if (light.pdf <= 0 || light.Le <= 0) return;
   const double value = vertex.eval(light.wi);
   if (value <= 0) return;
   const double weight = scene_.header.integrator == layout::INTEGRATOR_MIS ? power_heuristic(light.pdf, vertex.pdf(light.wi)) : 1;
-  add_light(value * light.Le * weight / light.pdf * shadow_transmittance(vertex, light));
+  add_light(share * value * light.Le * weight / light.pdf * shadow_transmittance(vertex, light));
 }
 
 /// What is left of the light on the way: interfaces are passed and change the medium, any other surface blocks.

@@ -168,6 +168,7 @@ struct IntegratorDescription {
   std::optional<int> russian_roulette = 5;  ///< first bounce at which it may end a path; nullopt: off
   int wavelengths_per_path = 4;
   ColorMode mode = ColorMode::Spectral;
+  bool equiangular = true;  ///< sampling of light along flights through thin media
   std::string name;  ///< as the file spells it
 };
 

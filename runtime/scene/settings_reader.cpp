@@ -92,7 +92,7 @@ void read_sampler(ReadContext& context, const JsonNode& node) {
 IntegratorDescription read_integrator(const JsonNode& node) {
   // `recursive` and `power` steer how darts computes the same mean.
   const JsonObject o(node, "an integrator",
-                     {"type", "max bounces", "russian roulette", "wavelengths per path", "mode", "recursive", "power"});
+                     {"type", "max bounces", "russian roulette", "wavelengths per path", "mode", "equiangular", "recursive", "power"});
   IntegratorDescription i;
   if (const auto type = o.find("type")) {
     i.name = type->string();
@@ -107,6 +107,7 @@ IntegratorDescription read_integrator(const JsonNode& node) {
     if (i.wavelengths_per_path != 1 && i.wavelengths_per_path != 4 && i.wavelengths_per_path != 8)
       wavelengths->fail(wavelengths->json().dump() + " is none of 1, 4 and 8");
   }
+  i.equiangular = o.boolean("equiangular", i.equiangular);
   if (const auto mode = o.find("mode")) {
     const std::string name = mode->string();
     if (name != "spectral" && name != "rgb") mode->fail("expected \"spectral\" or \"rgb\", not \"" + name + "\"");

@@ -50,6 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Irradiance, OpenClTruth, testing::ValuesIn(irradiance_c
 INSTANTIATE_TEST_SUITE_P(Boundary, OpenClTruth, testing::ValuesIn(boundary_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Slab, OpenClTruth, testing::ValuesIn(slab_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Chromatic, OpenClTruth, testing::ValuesIn(chromatic_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Airlight, OpenClTruth, testing::ValuesIn(airlight_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Fluorescence, OpenClTruth, testing::ValuesIn(fluorescence_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(OneWavelength, OpenClTruth, testing::ValuesIn(with_wavelengths(1, kAtOtherCounts)), case_name);
 INSTANTIATE_TEST_SUITE_P(EightWavelengths, OpenClTruth, testing::ValuesIn(with_wavelengths(8, kAtOtherCounts)), case_name);

@@ -36,6 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Irradiance, ReferenceTruth, testing::ValuesIn(irradianc
 INSTANTIATE_TEST_SUITE_P(Boundary, ReferenceTruth, testing::ValuesIn(boundary_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Slab, ReferenceTruth, testing::ValuesIn(slab_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Chromatic, ReferenceTruth, testing::ValuesIn(chromatic_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Airlight, ReferenceTruth, testing::ValuesIn(airlight_cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(Fluorescence, ReferenceTruth, testing::ValuesIn(fluorescence_cases()), case_name);
 
 }  // namespace

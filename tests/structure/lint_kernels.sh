@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.." || exit 1
 clang=${1:-clang}
 command -v "$clang" >/dev/null || { echo "lint_kernels: no $clang"; exit 77; }
 
-features="TRIANGLES SPHERES ELLIPSOIDS QUADS TEXTURES BLENDS ENVIRONMENT BACKGROUND MEDIA CHROMATIC_MEDIA INTERFACES
+features="TRIANGLES SPHERES ELLIPSOIDS QUADS TEXTURES BLENDS ENVIRONMENT BACKGROUND MEDIA CHROMATIC_MEDIA THIN_MEDIA INTERFACES
 FLUORESCENT_SURFACES FLUORESCENT_MEDIA RERADIATION METAL CONDUCTOR SMOOTH_DIELECTRIC ROUGH_DIELECTRIC PHONG DISPERSION
 EMISSION_TEXTURES SMOOTH_NORMALS LENS"
 everything=$(echo $features)
@@ -37,7 +37,7 @@ check "nothing"                  8 8 4 2 0 0 0 0 ""
 check "plain box"                8 8 4 2 0 0 0 0 "$surfaces"
 check "plain box, one lane"      1 2 1 0 0 0 0 0 "$surfaces"
 check "rgb"                      8 8 3 2 15 0 1 0 "QUADS TRIANGLES MEDIA CHROMATIC_MEDIA INTERFACES BACKGROUND TEXTURES BLENDS ENVIRONMENT CONDUCTOR PHONG"
-check "fog in a box"             8 8 4 2 0 0 0 0 "$surfaces MEDIA INTERFACES"
+check "fog in a box"             8 8 4 2 0 0 0 0 "$surfaces MEDIA THIN_MEDIA INTERFACES"
 check "skin"                     8 8 4 2 0 0 0 0 "TRIANGLES QUADS MEDIA SMOOTH_DIELECTRIC BACKGROUND"
 check "fluorescent surfaces"     8 8 4 2 8 0 0 0 "QUADS FLUORESCENT_SURFACES"
 check "fluorescent media"        1 2 8 2 8 0 0 0 "SPHERES MEDIA FLUORESCENT_MEDIA INTERFACES"

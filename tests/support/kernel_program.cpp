@@ -36,7 +36,7 @@ cl::Device first_cpu() {
 }
 
 const char* const kFeatures[] = {"TRIANGLES", "SPHERES", "ELLIPSOIDS", "QUADS", "TEXTURES", "BLENDS", "ENVIRONMENT", "BACKGROUND", "MEDIA",
-                                 "CHROMATIC_MEDIA", "INTERFACES", "FLUORESCENT_SURFACES", "FLUORESCENT_MEDIA", "RERADIATION", "METAL",
+                                 "CHROMATIC_MEDIA", "THIN_MEDIA", "INTERFACES", "FLUORESCENT_SURFACES", "FLUORESCENT_MEDIA", "RERADIATION", "METAL",
                                  "CONDUCTOR", "SMOOTH_DIELECTRIC", "ROUGH_DIELECTRIC", "PHONG", "DISPERSION", "EMISSION_TEXTURES",
                                  "SMOOTH_NORMALS", "LENS"};
 

@@ -53,5 +53,6 @@ std::vector<TruthCase> boundary_cases();      ///< Fresnel sheets, coated Lamber
 std::vector<TruthCase> slab_cases();          ///< slabs and half spaces
 std::vector<TruthCase> fluorescence_cases();  ///< patches, plates, enclosures, media
 std::vector<TruthCase> chromatic_cases();     ///< chromatic media, dispersion, colours, environments
+std::vector<TruthCase> airlight_cases();      ///< small lamps in thin fog
 
 }  // namespace stokes::tests
