@@ -37,11 +37,11 @@ STOKES_FN Spectrum light_radiance(const SceneView* view, const LightSample* s, R
 }
 
 /// Samples one light and adds what of it reaches the camera through this vertex. At a fluorescent vertex both branches are evaluated: the base
-/// reflects at the path's wavelengths, the dyes are lit at the excitation wavelengths that the continued ray would use.
+/// reflects at the path's wavelengths, the dyes are lit at the excitation wavelengths that the continued ray would use. `share` is what this
+/// estimate counts for among those that might have found the vertex.
 STOKES_FN void collect_direct(const SceneView* view, PathState* path, const Vertex* v, const SurfacePoint* point, const Excitation* x, Mask seeking,
-                              Counters* counters) {
-  const Real u_light = path_random(path, seeking), u1 = path_random(path, seeking), u2 = path_random(path, seeking);
-  const LightSample s = light_sample(view, v->position, u_light, u1, u2, seeking);
+                              const LightNumbers* u, Real share, Counters* counters) {
+  const LightSample s = light_sample(view, v->position, u, seeking);
   Real pdf;
   Spectrum f = vertex_eval(view, path, v, s.direction, &pdf);
   const Mask useful = seeking & (s.pdf > real(0.0f)) & (pdf > real(0.0f));
@@ -62,7 +62,8 @@ STOKES_FN void collect_direct(const SceneView* view, PathState* path, const Vert
   if (!any(seen)) return;
 
   // Directions are shared with the continued ray: the heuristic weighs solid angles, never transmittances.
-  const Real weight = (INTEGRATOR == INTEGRATOR_MIS ? power_heuristic(s.pdf, pdf) : real(1.0f)) / s.pdf;
+  Real weight = (INTEGRATOR == INTEGRATOR_MIS ? power_heuristic(s.pdf, pdf) : real(1.0f)) / s.pdf;
+  if (SCENE_HAS_THIN_MEDIA) weight = weight * share;
   Spectrum light = light_radiance(view, &s, origin, exclude, &path->throughput.lambda, seen);
   FOR_EACH_WAVELENGTH(k) light.v[k] *= f.v[k] * (SCENE_HAS_MEDIA ? exp_real(-depth.v[k]) : real(1.0f));
   path_collect(path, &light, weight, seen);

@@ -44,19 +44,27 @@ STOKES_FN void light_row(const SceneView* view, const __global float* records, I
   }
 }
 
-STOKES_FN void quad_light_sample(const SceneView* view, Int quad, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
+/// A uniform point on a quad.
+STOKES_FN Real3 quad_light_point(const SceneView* view, Int quad, Real u1, Real u2, Real* area) {
   const __global float* quads = (const __global float*)view->quads;
-  Real plane[4], corner[4], edge_u[4], edge_v[4];
-  light_row(view, quads, quad, QUAD_WORDS / 4, 0, plane);
+  Real corner[4], edge_u[4], edge_v[4];
   light_row(view, quads, quad, QUAD_WORDS / 4, 3, corner);
   light_row(view, quads, quad, QUAD_WORDS / 4, 4, edge_u);
   light_row(view, quads, quad, QUAD_WORDS / 4, 5, edge_v);
+  *area = corner[3];
   const Real3 start = madd3(real3(corner[0], corner[1], corner[2]), real3(edge_u[0], edge_u[1], edge_u[2]), u1);
-  const Real3 target = madd3(start, real3(edge_v[0], edge_v[1], edge_v[2]), u2);
-  aim_at(p, target, real3(plane[0], plane[1], plane[2]), real(1.0f) / corner[3], mask, s);
+  return madd3(start, real3(edge_v[0], edge_v[1], edge_v[2]), u2);
 }
 
-STOKES_FN void triangle_light_sample(const SceneView* view, Int triangle, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
+STOKES_FN void quad_light_sample(const SceneView* view, Int quad, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
+  Real plane[4], area;
+  light_row(view, (const __global float*)view->quads, quad, QUAD_WORDS / 4, 0, plane);
+  const Real3 target = quad_light_point(view, quad, u1, u2, &area);
+  aim_at(p, target, real3(plane[0], plane[1], plane[2]), real(1.0f) / area, mask, s);
+}
+
+/// A uniform point on a triangle; *normal receives a vector along its front normal.
+STOKES_FN Real3 triangle_light_point(const SceneView* view, Int triangle, Real u1, Real u2, Real3* normal) {
   const __global uint* triangles = (const __global uint*)view->triangles;
   const __global float* positions = (const __global float*)view->positions;
   const Int at = triangle * TRIANGLE_WORDS;
@@ -65,8 +73,15 @@ STOKES_FN void triangle_light_sample(const SceneView* view, Int triangle, Real3 
   const Real3 edge_2 = sub3(gather_real3(positions, gather_int(triangles, at + 2) * 3), a);
   Real b1, b2;
   sample_triangle(u1, u2, &b1, &b2);
-  const Real area = gather_real((const __global float*)triangles, at + 5);
-  aim_at(p, madd3(madd3(a, edge_1, b1), edge_2, b2), normalize3(cross3(edge_1, edge_2)), real(1.0f) / area, mask, s);
+  *normal = cross3(edge_1, edge_2);
+  return madd3(madd3(a, edge_1, b1), edge_2, b2);
+}
+
+STOKES_FN void triangle_light_sample(const SceneView* view, Int triangle, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
+  Real3 normal;
+  const Real3 target = triangle_light_point(view, triangle, u1, u2, &normal);
+  const Real area = gather_real((const __global float*)view->triangles, triangle * TRIANGLE_WORDS + 5);
+  aim_at(p, target, normalize3(normal), real(1.0f) / area, mask, s);
 }
 
 /// 1 - cos of the half angle under which a sphere is seen, from the squares of its radius and of the distance to its centre.
@@ -121,15 +136,22 @@ STOKES_FN Real ellipsoid_volume_scale(const __global float* to_world, Int at) {
   return abs_real(dot3(x, cross3(y, z)));
 }
 
+/// Where the map from the unit sphere puts n.
+STOKES_FN Real3 ellipsoid_light_point(const SceneView* view, Int ellipsoid, Real3 n) {
+  const __global float* words = (const __global float*)view->ellipsoids;
+  const Int m = ellipsoid * ELLIPSOID_WORDS + 12;
+  const Real3 x = gather_real3(words, m), y = gather_real3(words, m + 4), z = gather_real3(words, m + 8);
+  const Real3 center = real3(gather_real(words, m + 3), gather_real(words, m + 7), gather_real(words, m + 11));
+  return add3(center, real3(dot3(x, n), dot3(y, n), dot3(z, n)));
+}
+
 /// Uniform on the unit sphere before the map; the density by area follows from how the map stretches there.
 STOKES_FN void ellipsoid_light_sample(const SceneView* view, Int ellipsoid, Real3 p, Real u1, Real u2, Mask mask, LightSample* s) {
   const __global float* words = (const __global float*)view->ellipsoids;
   const Int at = ellipsoid * ELLIPSOID_WORDS;
   const Int m = at + 12;
   const Real3 n = sample_uniform_sphere(u1, u2);
-  const Real3 x = gather_real3(words, m), y = gather_real3(words, m + 4), z = gather_real3(words, m + 8);
-  const Real3 center = real3(gather_real(words, m + 3), gather_real(words, m + 7), gather_real(words, m + 11));
-  const Real3 target = add3(center, real3(dot3(x, n), dot3(y, n), dot3(z, n)));
+  const Real3 target = ellipsoid_light_point(view, ellipsoid, n);
   const Real3 normal = ellipsoid_normal(words, at, n);
   const Real length = sqrt_real(dot3(normal, normal));
   const Mask flipped = gather_int((const __global uint*)words, at + 26) != integer(0);
@@ -170,12 +192,50 @@ STOKES_FN Int light_choose(const SceneView* view, Real u, Real* probability) {
   return light;
 }
 
-/// Samples a direction from p towards some light: u_light chooses it, u1 and u2 the place on it. The scene must have a light.
-STOKES_FN LightSample light_sample(const SceneView* view, Real3 p, Real u_light, Real u1, Real u2, Mask mask) {
+/// The random numbers of a light sample.
+typedef struct {
+  Real choice, u1, u2;
+} LightNumbers;
+
+/// A place that stands for what light_sample does with the same numbers: its very point, or a sphere's centre. *size2 receives a small part of
+/// the light's area. Returns the lanes that have one: the surroundings are nowhere.
+STOKES_FN Mask light_place(const SceneView* view, const LightNumbers* u, Mask mask, Real3* place, Real* size2) {
+  const __global uint* words = (const __global uint*)view->lights;
+  Real probability;
+  const Int light = light_choose(view, u->choice, &probability);
+  const Int type = gather_int(words, light * LIGHT_WORDS);
+  const Int primitive = gather_int(words, light * LIGHT_WORDS + 1);
+  *place = real3(real(0.0f), real(0.0f), real(0.0f));
+  *size2 = gather_real((const __global float*)view->lights, light * LIGHT_WORDS + 6) * real(0.25f * STOKES_INV_4PI);
+  if (SCENE_HAS_QUADS) {
+    const Mask m = mask & (type == integer(LIGHT_QUAD));
+    Real area;
+    if (any(m)) *place = select3(m, quad_light_point(view, m ? primitive : integer(0), u->u1, u->u2, &area), *place);
+  }
+  if (SCENE_HAS_SPHERES) {
+    const Mask m = mask & (type == integer(LIGHT_SPHERE));
+    Real record[4];
+    if (any(m)) light_row(view, (const __global float*)view->spheres, m ? primitive : integer(0), SPHERE_WORDS / 4, 0, record);
+    if (any(m)) *place = select3(m, real3(record[0], record[1], record[2]), *place);
+  }
+  if (SCENE_HAS_ELLIPSOIDS) {
+    const Mask m = mask & (type == integer(LIGHT_ELLIPSOID));
+    if (any(m)) *place = select3(m, ellipsoid_light_point(view, m ? primitive : integer(0), sample_uniform_sphere(u->u1, u->u2)), *place);
+  }
+  if (SCENE_HAS_TRIANGLES) {
+    const Mask m = mask & (type == integer(LIGHT_TRIANGLE));
+    Real3 normal;
+    if (any(m)) *place = select3(m, triangle_light_point(view, m ? primitive : integer(0), u->u1, u->u2, &normal), *place);
+  }
+  return mask & (type < integer(LIGHT_BACKGROUND));
+}
+
+/// Samples a direction from p towards some light. The scene must have a light.
+STOKES_FN LightSample light_sample(const SceneView* view, Real3 p, const LightNumbers* u, Mask mask) {
   const __global uint* words = (const __global uint*)view->lights;
   LightSample s;
   Real probability;
-  s.light = light_choose(view, u_light, &probability);
+  s.light = light_choose(view, u->choice, &probability);
   s.direction = real3(real(0.0f), real(0.0f), real(1.0f));
   s.distance = real(1.0f);
   s.pdf = real(0.0f);
@@ -184,7 +244,7 @@ STOKES_FN LightSample light_sample(const SceneView* view, Real3 p, Real u_light,
 #define STOKES_LIGHT_CASE(present, kind, sampler)                                             \
   if (present) {                                                                              \
     const Mask m = mask & (type == integer(kind));                                            \
-    if (any(m)) sampler(view, m ? primitive : integer(0), p, u1, u2, m, &s);                  \
+    if (any(m)) sampler(view, m ? primitive : integer(0), p, u->u1, u->u2, m, &s);          \
   }
   STOKES_LIGHT_CASE(SCENE_HAS_QUADS, LIGHT_QUAD, quad_light_sample)
   STOKES_LIGHT_CASE(SCENE_HAS_SPHERES, LIGHT_SPHERE, sphere_light_sample)
@@ -193,7 +253,7 @@ STOKES_FN LightSample light_sample(const SceneView* view, Real3 p, Real u_light,
 #undef STOKES_LIGHT_CASE
   if (SCENE_HAS_BACKGROUND || SCENE_HAS_ENVIRONMENT) {
     const Mask m = mask & (type >= integer(LIGHT_BACKGROUND));
-    if (any(m)) surroundings_sample(view, type, u1, u2, m, &s);
+    if (any(m)) surroundings_sample(view, type, u->u1, u->u2, m, &s);
   }
   s.pdf = s.pdf * probability;
   return s;

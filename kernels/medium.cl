@@ -13,7 +13,7 @@ typedef struct {
   Int index;
   Int flags;
   Spectrum sigma_t;  // per scene unit; all alike (read one) without chromatic media
-  Spectrum albedo;   // sigma_s over the hero's sigma_t
+  Spectrum albedo;   // sigma_s over the hero's sigma_t, or sigma_s itself where that is 0
   Spectrum g;
   Real mean_free_path;  // where sigma_t is largest
 } MediumState;
@@ -54,7 +54,7 @@ STOKES_FN void medium_load(const SceneView* view, Int index, const Throughput* t
   const Spectrum sigma_t = medium_extinction(view, mask ? index : integer(0), &t->lambda);
   const Spectrum sigma_s = spectrum_eval(view, gather_int(media, at + 1), &t->lambda);
   const Real hero_sigma_t = SCENE_HAS_CHROMATIC_MEDIA ? hero_value(t, &sigma_t) : sigma_t.v[0];
-  const Real scale = hero_sigma_t > real(0.0f) ? real(1.0f) / hero_sigma_t : real(0.0f);
+  const Real scale = hero_sigma_t > real(0.0f) ? real(1.0f) / hero_sigma_t : real(1.0f);
   m->index = mask ? index : m->index;
   m->flags = mask ? flags : m->flags;
   m->mean_free_path = mask ? gather_real((const __global float*)media, at + 6) : m->mean_free_path;

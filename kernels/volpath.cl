@@ -2,9 +2,8 @@
 // share one loop. Knows the order of things; how each is done stands in the files it includes.
 #ifndef STOKES_VOLPATH_CL
 #define STOKES_VOLPATH_CL
+#include "airlight.cl"
 #include "aov.cl"
-#include "direct.cl"
-#include "flight.cl"
 #include "queue.cl"
 
 /// Starts the next ray of the masked lanes at a surface point, in the medium of the side that `direction` leaves into.
@@ -84,6 +83,7 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
     // Fly until the medium scatters the path, a surface stops it, or it leaves the scene.
     const Real3 origin = path.origin;
     const Flight flight = path_fly(view, &path, counters);
+    if (SCENE_HAS_THIN_MEDIA && any(flight.airlight.sought)) collect_airlight(view, &path, &flight.airlight, counters);
     if (any(flight.escaped)) {
       collect_surroundings(view, &path, flight.escaped);
       path.alive = path.alive & !flight.escaped;
@@ -126,7 +126,10 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
 
     // Light straight from a source, then on in a new direction.
     const Mask seeking = seeks_light(view, &path, &vertex);
-    if (any(seeking)) collect_direct(view, &path, &vertex, &point, &excitation, seeking, counters);
+    if (any(seeking)) {
+      const LightNumbers numbers = light_numbers(&path, &flight.airlight, vertex.in_medium, seeking);
+      collect_direct(view, &path, &vertex, &point, &excitation, seeking, &numbers, flight.airlight.share, counters);
+    }
     scatter(view, &path, &vertex, &point, &excitation, seeking);
     russian_roulette(view, &path, scatters);
   }
