@@ -26,13 +26,22 @@ typedef struct {
   Int dye;
   Real chosen;  // what the chosen one gives off
   Real total;   // and all of them
+  Spectrum emission;  // of the chosen one, as dye_emission
 } DyeChoice;
 
-/// What a dye gives off at the path's wavelengths: emission(lo) [/ lo], per nm.
-STOKES_FN Spectrum dye_emission(const SceneView* view, Int dye, Int flags, const Spectrum* lambda) {
-  Spectrum e = spectrum_eval(view, dye_uint(view, dye, 1), lambda);
-  const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0);
-  FOR_EACH_WAVELENGTH(k) e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];
+/// What a dye gives off at the path's wavelengths: emission(lo) [/ lo], per nm. *absorbed receives what it absorbs there.
+STOKES_FN Spectrum dye_emission(const SceneView* view, Int dye, const Spectrum* lambda, Spectrum* absorbed) {
+  const Mask photon = (dye_uint(view, dye, 5) & (int)DYE_PHOTON_YIELD) != integer(0);
+  const Int curves = dye_uint(view, dye, 6) * (STOKES_SPECTRUM_STRIDE / 4);
+  Spectrum e;
+  FOR_EACH_WAVELENGTH(k) {
+    Real f, ends[4];
+    const Int c = spectrum_cell(lambda->v[k], &f);
+    gather_real4(view->spectra, curves + c, ends);
+    absorbed->v[k] = fma(f, ends[1] - ends[0], ends[0]);
+    e.v[k] = fma(f, ends[3] - ends[2], ends[2]);
+    e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];
+  }
   return e;
 }
 
@@ -48,11 +57,13 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
   DyeChoice c;
   c.dye = integer(0);
   c.chosen = c.total = real(0.0f);
+  c.emission = spectrum_constant(real(0.0f));
   for (int i = 0;; i++) {
     const Mask m = mask & (integer(i) < count);
     if (!any(m)) return c;
     const Int dye = m ? first + i : integer(0);
-    const Spectrum e = dye_emission(view, dye, dye_uint(view, dye, 5), &t->lambda);
+    Spectrum a;
+    const Spectrum e = dye_emission(view, dye, &t->lambda, &a);
     const Real strength = m ? dye_float(view, dye, 4) * beta_sum(t, &e) : real(0.0f);
     // A reservoir of one: what is left of u is uniform again.
     const Real total = c.total + strength;
@@ -62,11 +73,9 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
     u = m ? rest : u;
     c.dye = take ? dye : c.dye;
     c.chosen = take ? strength : c.chosen;
+    c.emission = select_spectrum(take, e, c.emission);
     c.total = total;
-    if (absorbed) {
-      const Spectrum a = spectrum_eval(view, dye_uint(view, dye, 0), &t->lambda);
-      FOR_EACH_WAVELENGTH(k) absorbed->v[k] = m ? absorbed->v[k] + a.v[k] : absorbed->v[k];
-    }
+    if (absorbed) FOR_EACH_WAVELENGTH(k) absorbed->v[k] = m ? absorbed->v[k] + a.v[k] : absorbed->v[k];
   }
 }
 
@@ -76,23 +85,23 @@ STOKES_FN Real stratum(Real u, int k) {
   return x >= real(1.0f) ? x - real(1.0f) : x;
 }
 
-/// The throughput beyond an event at dye `dye`, whose choice among its set had the given probability: the masked lanes of *out.
-STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, Int dye, Real probability, Real u, Mask mask, Throughput* out) {
+/// The throughput beyond an event at the chosen dye: the masked lanes of *out.
+STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeChoice* c, Real u, Mask mask, Throughput* out) {
+  const Int dye = mask ? c->dye : integer(0);
   const Int flags = dye_uint(view, dye, 5);
   const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0), stokes = (flags & (int)DYE_STOKES) != integer(0);
-  const Spectrum emission = dye_emission(view, dye, flags, &t->lambda);
   const Int absorption = dye_uint(view, dye, 0), excitation = dye_uint(view, dye, 2);
-  const Real scale = dye_float(view, dye, 3) / probability;
+  const Real scale = dye_float(view, dye, 3) / (mask ? c->chosen / c->total : real(1.0f));
   const Real share = hero_share(t);
   Real mean = real(0.0f);
-  FOR_EACH_WAVELENGTH(k) mean = fma(t->beta.v[k] * emission.v[k], real(1.0f / (float)WAVELENGTHS), mean);
+  FOR_EACH_WAVELENGTH(k) mean = fma(t->beta.v[k] * c->emission.v[k], real(1.0f / (float)WAVELENGTHS), mean);
   FOR_EACH_WAVELENGTH(k) {
     Real pdf;
     const Real li = distribution_sample(view, excitation, stratum(u, k), &pdf);
     const Real lo = t->lambda.v[k];
     const Real absorbed = spectrum_eval1(view, absorption, li) * (photon ? li : real(1.0f)) * scale / pdf;
     // Without a mask the slots' emissions move into the mixture; with it each slot carries its own on.
-    const Real own = t->beta.v[k] * emission.v[k];
+    const Real own = t->beta.v[k] * c->emission.v[k];
     const Real chained = li <= lo ? own * absorbed : real(0.0f);
     const Real mixed = share * (t->mixed ? t->mixture.v[k] * mean : own);
     out->lambda.v[k] = mask ? li : out->lambda.v[k];
@@ -114,7 +123,7 @@ STOKES_FN void surface_excite(const SceneView* view, const Throughput* t, Int ma
   FOR_EACH_WAVELENGTH(k) color->v[k] = mask ? color->v[k] * max_real(real(1.0f) - absorbed.v[k], real(0.0f)) : color->v[k];
   const Mask glows = mask & (c.chosen > real(0.0f));
   const Real all = c.total + beta_sum(t, color);
-  dye_excite(view, t, glows ? c.dye : integer(0), glows ? c.chosen / c.total : real(1.0f), u_lambda, glows, &x->throughput);
+  dye_excite(view, t, &c, u_lambda, glows, &x->throughput);
   x->probability = glows ? c.total / all : x->probability;
   x->lanes = x->lanes | glows;
 }

@@ -52,18 +52,22 @@ STOKES_FN Real distribution_pdf(const SceneView* view, Int distribution, Real la
 STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real u, Real* pdf) {
   const __global uint* ids = (const __global uint*)view->distributions;
   const __global float* words = (const __global float*)view->distributions;
-  const Int first = gather_int(ids, distribution * 4 + 1) * STOKES_CDF_STRIDE;
-  // Nine halvings find the last c in [0, 499] with cdf[c] <= u.
-  Int c = integer(0);
-  for (int step = 256; step > 0; step >>= 1) {
-    const Int next = min_int(c + step, integer(STOKES_SPECTRUM_CELLS - 1));
-    c = gather_real(view->cdfs, first + next) <= u ? next : c;
+  const Int first = gather_int(ids, distribution * 4 + 1) * (STOKES_CDF_STRIDE / 4);
+  // The last c in [0, 499] with cdf[c] <= u. The guides leave few cells to halve between.
+  Real from, to;
+  const Int guide = min_int(to_int(u * (float)STOKES_CDF_GUIDES), integer(STOKES_CDF_GUIDES - 1));
+  gather_real2(view->cdfs, 2 * (first + STOKES_SPECTRUM_CELLS) + guide, &from, &to);
+  Int c = to_int(from), last = to_int(to);
+  while (any(c < last)) {
+    const Int middle = (c + last + 1) >> 1;
+    const Mask above = gather_real(view->cdfs, 4 * (first + middle)) <= u;
+    c = above ? middle : c;
+    last = above ? last : middle - 1;
   }
-  const Real below = gather_real(view->cdfs, first + c);
-  const Real mass = gather_real(view->cdfs, first + c + 1) - below;
+  Real cell[4];
+  gather_real4(view->cdfs, first + c, cell);
+  const Real below = cell[0], mass = cell[1], a = cell[2], b = cell[3];
   const Real x = mass > real(0.0f) ? min_real((u - below) / mass, real(1.0f)) : real(0.5f);
-  Real a, b;
-  gather_real2(view->spectra, gather_int(ids, distribution * 4) * STOKES_SPECTRUM_CELLS + c, &a, &b);
   const Real root = a + sqrt_real(fma(x, b * b, (real(1.0f) - x) * (a * a)));
   const Real f = root > real(0.0f) ? x * (a + b) / root : real(0.5f);
   const Real start = to_real(c) + real(STOKES_LAMBDA_MIN);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiled/compilation.h"
+#include "compiled/cumulative_table.h"
 
 namespace stokes::compiled {
 namespace {
@@ -45,6 +46,7 @@ layout::Dye fill_dye(Compilation& c, const DyeDescription& dye, double factor, b
   const Curve drawn = dye.photon_yield ? times_wavelength(c.spectra, absorption) : absorption;
   out.absorption = c.spectra.add(absorption);
   out.emission = c.spectra.add(emission);
+  out.curves = c.spectra.add_interleaved(absorption, emission);
   out.yield = float(dye.yield);
   out.strength = float(c.spectra.integral(drawn) * dye.yield);
   out.flags = (dye.photon_yield ? DYE_PHOTON_YIELD : 0u) | (dye.stokes ? DYE_STOKES : 0u);
@@ -133,7 +135,7 @@ void complete_excitations(Compilation& c) {
     out.cdf = std::uint32_t(c.out.cdfs.size() / STOKES_CDF_STRIDE);
     out.integral = float(d.integral);
     out.strength = float(c.spectra.integral(pending.absorption));
-    c.out.cdfs.insert(c.out.cdfs.end(), d.cdf.begin(), d.cdf.end());
+    append_cumulative_table(c.out.cdfs, table, d.cdf);
   }
   c.excitations.clear();
 }

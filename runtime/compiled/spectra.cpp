@@ -49,6 +49,14 @@ std::uint32_t Spectra::add(const Curve& c) {
   return index;
 }
 
+std::uint32_t Spectra::add_interleaved(const Curve& a, const Curve& b) {
+  if (rgb_) return 0;
+  const auto index = std::uint32_t(tables.size() / size());
+  for (std::size_t i = 0; i < size(); i += 2)
+    for (const double v : {a[i], a[i + 1], b[i], b[i + 1]}) tables.push_back(float(v));
+  return index;
+}
+
 Curve Spectra::read(std::uint32_t table) const {
   const auto first = tables.begin() + std::ptrdiff_t(table * size());
   return Curve(first, first + std::ptrdiff_t(size()));

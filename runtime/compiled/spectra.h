@@ -38,6 +38,8 @@ class Spectra {
   /// The index of the table with these numbers, a new one if there is none yet.
   std::uint32_t add(const Curve& c);
   std::uint32_t add(const Spectrum& s, SpectrumRole role) { return add(curve(s, role)); }
+  /// Two curves as one table of double size, their cells in turn. In RGB mode, whose dyes do not glow, nothing is stored.
+  std::uint32_t add_interleaved(const Curve& a, const Curve& b);
   Curve read(std::uint32_t table) const;
 
   /// All tables in a row, as the layout has them.

@@ -19,7 +19,7 @@
              F(shape_count) F(flags) F(uv_wrap) F(to_texture))                                                                \
   S(Region, F(a) F(radius) F(b) F(shape))                                                                                     \
   S(Medium, F(sigma_t) F(sigma_s) F(g) F(flags) F(first_dye) F(dye_count) F(mean_free_path) F(padding))                       \
-  S(Dye, F(absorption) F(emission) F(excitation) F(yield) F(strength) F(flags) F(padding))                                    \
+  S(Dye, F(absorption) F(emission) F(excitation) F(yield) F(strength) F(flags) F(curves) F(padding))                                   \
   S(Distribution, F(spectrum) F(cdf) F(integral) F(strength))                                                                 \
   S(Reradiation, F(offset) F(columns) F(rows) F(li_min) F(li_step) F(lo_min) F(lo_step) F(first_excitation))                  \
   S(Light, F(type) F(primitive) F(emission) F(probability) F(alias_threshold) F(alias) F(area) F(padding))                    \

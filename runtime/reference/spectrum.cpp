@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace stokes::reference {
 namespace {
@@ -70,13 +71,13 @@ double spectrum_eval(const CompiledScene& scene, std::uint32_t table, Wavelength
 
 double distribution_sample(const CompiledScene& scene, std::uint32_t distribution, double u, double& pdf) {
   const layout::Distribution& d = scene.distributions[distribution];
-  const float* cdf = &scene.cdfs[std::size_t(d.cdf) * STOKES_CDF_STRIDE];
+  const float* cells = &scene.cdfs[std::size_t(d.cdf) * STOKES_CDF_STRIDE];
   // The last cell that begins at or below u; cells without mass are never it.
-  const auto above = std::upper_bound(cdf, cdf + STOKES_CDF_STRIDE, static_cast<float>(u));
-  auto cell = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - cdf - 1));
-  cell = std::min<std::size_t>(cell, STOKES_SPECTRUM_CELLS - 1);
-  const double begin = cdf[cell], end = cdf[cell + 1];
-  const double inside = end > begin ? std::clamp((u - begin) / (end - begin), 0.0, 1.0) : 0.5;
+  const auto indices = std::views::iota(std::size_t{0}, std::size_t{STOKES_SPECTRUM_CELLS});
+  const auto above = std::ranges::upper_bound(indices, static_cast<float>(u), {}, [cells](std::size_t i) { return cells[4 * i]; });
+  const std::size_t cell = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, above - indices.begin())) - 1;
+  const double begin = cells[4 * cell], mass = cells[4 * cell + 1];
+  const double inside = mass > 0 ? std::clamp((u - begin) / mass, 0.0, 1.0) : 0.5;
   const float* ends = &scene.spectra[std::size_t(d.spectrum) * STOKES_SPECTRUM_STRIDE + 2 * cell];
   const double a = std::max(0.0f, ends[0]), b = std::max(0.0f, ends[1]);
   const double x = sample_linear(a, b, inside);

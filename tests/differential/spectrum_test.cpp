@@ -1,9 +1,12 @@
 // Spectrum tables, wavelength sampling, the sensor and camera rays of the kernels, against the reference in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
+#include "compiled/cumulative_table.h"
 #include "reference/camera.h"
 #include "reference/spectrum.h"
 #include "spectral/tabulate.h"
@@ -37,12 +40,14 @@ CompiledScene spectra_scene() {
   for (layout::uint t = 0; t < 4; t++) {
     // Cumulative sums of the trapezia.
     double sum = 0;
-    std::vector<double> cdf{0};
-    for (int c = 0; c < 500; c++) {
+    std::array<double, 501> sums{};
+    for (std::size_t c = 0; c < 500; c++) {
       sum += 0.5 * (double(s.spectra[t * 1000 + 2 * c]) + s.spectra[t * 1000 + 2 * c + 1]);
-      cdf.push_back(sum);
+      sums[c + 1] = sum;
     }
-    for (double v : cdf) s.cdfs.push_back(float(v / sum));
+    std::array<float, 501> cdf{};
+    std::transform(sums.begin(), sums.end(), cdf.begin(), [sum](double v) { return float(v / sum); });
+    append_cumulative_table(s.cdfs, std::span(s.spectra).subspan(t * 1000, 1000), cdf);
     s.distributions.push_back({t, t, float(sum), 0});
   }
   s.camera_knots = camera_knots(STOKES_CAMERA_KNOTS, 0, 0, 0);
