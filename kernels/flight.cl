@@ -122,7 +122,7 @@ STOKES_FN Mask dyes_along(const SceneView* view, PathState* path, Real length, M
     t->density.v[k] = found ? t->density.v[k] * density / hero_density : t->density.v[k];
   }
   Throughput excited = *t;
-  dye_excite(view, t, found ? c.dye : integer(0), found ? c.chosen / c.total : real(1.0f), u_lambda, found, &excited);
+  dye_excite(view, t, &c, u_lambda, found, &excited);
   *t = excited;
   path->fluoresced = path->fluoresced | found;
   // Coefficients at the new wavelengths.
