@@ -11,8 +11,10 @@
 #define DYE_WORDS 8
 #define RERADIATION_WORDS 8
 
-STOKES_FN Int dye_uint(const SceneView* view, Int dye, int word) { return gather_int((const __global uint*)view->dyes, dye * DYE_WORDS + word); }
-STOKES_FN Real dye_float(const SceneView* view, Int dye, int word) { return gather_real((const __global float*)view->dyes, dye * DYE_WORDS + word); }
+/// Four words of a dye, at row 0 (absorption, emission, excitation, yield) or 1 (strength, flags, curves, -).
+STOKES_FN void dye_row(const SceneView* view, Int dye, int row, Int* x4) {
+  gather_int4((const __global uint*)view->dyes, dye * (DYE_WORDS / 4) + row, x4);
+}
 
 /// The throughput beyond a fluorescent event, not yet divided by the probability that the path goes on through it.
 typedef struct {
@@ -23,21 +25,20 @@ typedef struct {
 
 /// One dye of a set, chosen in proportion to what it gives off at the path's wavelengths.
 typedef struct {
-  Int dye;
+  Int dye, flags;
   Real chosen;  // what the chosen one gives off
   Real total;   // and all of them
   Spectrum emission;  // of the chosen one, as dye_emission
 } DyeChoice;
 
 /// What a dye gives off at the path's wavelengths: emission(lo) [/ lo], per nm. *absorbed receives what it absorbs there.
-STOKES_FN Spectrum dye_emission(const SceneView* view, Int dye, const Spectrum* lambda, Spectrum* absorbed) {
-  const Mask photon = (dye_uint(view, dye, 5) & (int)DYE_PHOTON_YIELD) != integer(0);
-  const Int curves = dye_uint(view, dye, 6) * (STOKES_SPECTRUM_STRIDE / 4);
+STOKES_FN Spectrum dye_emission(const SceneView* view, Int flags, Int curves, const Spectrum* lambda, Spectrum* absorbed) {
+  const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0);
   Spectrum e;
   FOR_EACH_WAVELENGTH(k) {
     Real f, ends[4];
     const Int c = spectrum_cell(lambda->v[k], &f);
-    gather_real4(view->spectra, curves + c, ends);
+    gather_real4(view->spectra, curves * (STOKES_SPECTRUM_STRIDE / 4) + c, ends);
     absorbed->v[k] = fma(f, ends[1] - ends[0], ends[0]);
     e.v[k] = fma(f, ends[3] - ends[2], ends[2]);
     e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];
@@ -55,16 +56,18 @@ STOKES_FN Real beta_sum(const Throughput* t, const Spectrum* s) {
 /// Chooses among `count` dyes from `first` on; *absorbed, unless null, receives what they absorb at the path's wavelengths.
 STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int first, Int count, Real u, Mask mask, Spectrum* absorbed) {
   DyeChoice c;
-  c.dye = integer(0);
+  c.dye = c.flags = integer(0);
   c.chosen = c.total = real(0.0f);
   c.emission = spectrum_constant(real(0.0f));
   for (int i = 0;; i++) {
     const Mask m = mask & (integer(i) < count);
     if (!any(m)) return c;
     const Int dye = m ? first + i : integer(0);
+    Int row[4];
+    dye_row(view, dye, 1, row);
     Spectrum a;
-    const Spectrum e = dye_emission(view, dye, &t->lambda, &a);
-    const Real strength = m ? dye_float(view, dye, 4) * beta_sum(t, &e) : real(0.0f);
+    const Spectrum e = dye_emission(view, row[1], row[2], &t->lambda, &a);
+    const Real strength = m ? as_real(row[0]) * beta_sum(t, &e) : real(0.0f);
     // A reservoir of one: what is left of u is uniform again.
     const Real total = c.total + strength;
     const Real p = total > real(0.0f) ? strength / total : real(0.0f);
@@ -72,6 +75,7 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
     const Real rest = take ? u / max_real(p, real(1e-30f)) : (u - p) / max_real(real(1.0f) - p, real(1e-30f));
     u = m ? rest : u;
     c.dye = take ? dye : c.dye;
+    c.flags = take ? row[1] : c.flags;
     c.chosen = take ? strength : c.chosen;
     c.emission = select_spectrum(take, e, c.emission);
     c.total = total;
@@ -88,16 +92,18 @@ STOKES_FN Real stratum(Real u, int k) {
 /// The throughput beyond an event at the chosen dye: the masked lanes of *out.
 STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeChoice* c, Real u, Mask mask, Throughput* out) {
   const Int dye = mask ? c->dye : integer(0);
-  const Int flags = dye_uint(view, dye, 5);
+  Int row[4];
+  dye_row(view, dye, 0, row);
+  const Int flags = c->flags;
   const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0), stokes = (flags & (int)DYE_STOKES) != integer(0);
-  const Int absorption = dye_uint(view, dye, 0), excitation = dye_uint(view, dye, 2);
-  const Real scale = dye_float(view, dye, 3) / (mask ? c->chosen / c->total : real(1.0f));
+  const Int absorption = row[0], excitation = row[2];
+  const Real scale = as_real(row[3]) / (mask ? c->chosen / c->total : real(1.0f));
   const Real share = hero_share(t);
   Real mean = real(0.0f);
   FOR_EACH_WAVELENGTH(k) mean = fma(t->beta.v[k] * c->emission.v[k], real(1.0f / (float)WAVELENGTHS), mean);
   FOR_EACH_WAVELENGTH(k) {
     Real pdf;
-    const Real li = distribution_sample(view, excitation, stratum(u, k), &pdf);
+    const Real li = distribution_sample(view, excitation, stratum(u, k), mask, &pdf);
     const Real lo = t->lambda.v[k];
     const Real absorbed = spectrum_eval1(view, absorption, li) * (photon ? li : real(1.0f)) * scale / pdf;
     // Without a mask the slots' emissions move into the mixture; with it each slot carries its own on.
@@ -163,7 +169,7 @@ STOKES_FN void reradiation_excite(const SceneView* view, const Throughput* t, In
     const Mask has_row = (nearest >= real(0.0f)) & (nearest < to_real(rows));
     const Int row = first + to_int(has_row ? nearest : real(0.0f));
     Real pdf;
-    const Real li = distribution_sample(view, row, stratum(u, k), &pdf);
+    const Real li = distribution_sample(view, row, stratum(u, k), mask, &pdf);
     const Real response = has_row ? reradiation_eval(view, matrix, li, lo) : real(0.0f);
     // The row's integral over li, which was taken before the values were divided by the band's width.
     const Real strength = has_row ? gather_real((const __global float*)view->distributions, row * 4 + 3) / lo_step : real(0.0f);

@@ -31,11 +31,10 @@ using uint = std::uint32_t;
 // Camera wavelengths are drawn through a tabulated inverse CDF of STOKES_CAMERA_KNOTS segments: with x = u * KNOTS,
 // i = floor(x), lambda = lerp(knot[i], knot[i+1], x - i), and 1/pdf(lambda) = KNOTS * (knot[i+1] - knot[i]), exactly.
 #define STOKES_CAMERA_KNOTS 1024
-// A cumulative table has four floats for each of the STOKES_SPECTRUM_CELLS cells: the probability below the cell and that of the cell, and the
-// density's values at the cell's two ends. Behind them stand STOKES_CDF_GUIDES pairs of cells: a number u in [i, i + 1) / STOKES_CDF_GUIDES
-// falls into a cell from the first to the second of pair i.
-#define STOKES_CDF_GUIDES 512
-#define STOKES_CDF_STRIDE (4 * STOKES_SPECTRUM_CELLS + 2 * STOKES_CDF_GUIDES)
+// A cumulative table has four floats for each of the STOKES_SPECTRUM_CELLS cells: the cumulative probability at the cell's two ends, and the
+// density there. Behind them stand STOKES_CDF_GUIDES cells, that into which i / STOKES_CDF_GUIDES falls for every i: where to look first.
+#define STOKES_CDF_GUIDES 2048
+#define STOKES_CDF_STRIDE (4 * STOKES_SPECTRUM_CELLS + STOKES_CDF_GUIDES)
 
 typedef struct {
   float x, y, z;

@@ -45,29 +45,36 @@ STOKES_FN Real distribution_pdf(const SceneView* view, Int distribution, Real la
   return spectrum_eval1(view, table, lambda) / gather_real(words, distribution * 4 + 2);
 }
 
-/// Draws a wavelength (nm) with the density of the distribution; *pdf receives the density per nm, never 0 for u in (0, 1).
+/// Draws a wavelength (nm) with the density of the distribution, in the masked lanes; *pdf receives the density per nm, never 0 for u in (0, 1).
 ///
 /// The cell is found in the cumulative table, the place within it by inverting the linear density. The result is kept inside
 /// its cell, so that spectrum_eval1 reads the same cell there.
-STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real u, Real* pdf) {
+STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real u, Mask mask, Real* pdf) {
   const __global uint* ids = (const __global uint*)view->distributions;
   const __global float* words = (const __global float*)view->distributions;
   const Int first = gather_int(ids, distribution * 4 + 1) * (STOKES_CDF_STRIDE / 4);
-  // The last c in [0, 499] with cdf[c] <= u. The guides leave few cells to halve between.
-  Real from, to;
+  // The last c in [0, 499] that begins at or below u: mostly the guide's cell, or else one of those up to the next guide's.
+  const Int guides = 4 * (first + STOKES_SPECTRUM_CELLS);
   const Int guide = min_int(to_int(u * (float)STOKES_CDF_GUIDES), integer(STOKES_CDF_GUIDES - 1));
-  gather_real2(view->cdfs, 2 * (first + STOKES_SPECTRUM_CELLS) + guide, &from, &to);
-  Int c = to_int(from), last = to_int(to);
-  while (any(c < last)) {
-    const Int middle = (c + last + 1) >> 1;
-    const Mask above = gather_real(view->cdfs, 4 * (first + middle)) <= u;
-    c = above ? middle : c;
-    last = above ? last : middle - 1;
-  }
+  Int c = to_int(gather_real(view->cdfs, guides + guide));
   Real cell[4];
   gather_real4(view->cdfs, first + c, cell);
-  const Real below = cell[0], mass = cell[1], a = cell[2], b = cell[3];
-  const Real x = mass > real(0.0f) ? min_real((u - below) / mass, real(1.0f)) : real(0.5f);
+  const Mask beyond = mask & (u >= cell[1]) & (c < integer(STOKES_SPECTRUM_CELLS - 1));
+  if (any(beyond)) {
+    const Int next = min_int(guide + 1, integer(STOKES_CDF_GUIDES - 1));
+    Int last = guide < next ? to_int(gather_real(view->cdfs, guides + next)) : integer(STOKES_SPECTRUM_CELLS - 1);
+    last = beyond ? last : c;
+    while (any(c < last)) {
+      const Int middle = (c + last + 1) >> 1;
+      const Mask above = gather_real(view->cdfs, 4 * (first + middle)) <= u;
+      c = above ? middle : c;
+      last = above ? last : middle - 1;
+    }
+    gather_real4(view->cdfs, first + c, cell);
+  }
+  const Real mass = cell[1] - cell[0];
+  const Real x = mass > real(0.0f) ? min_real((u - cell[0]) / mass, real(1.0f)) : real(0.5f);
+  const Real a = cell[2], b = cell[3];
   const Real root = a + sqrt_real(fma(x, b * b, (real(1.0f) - x) * (a * a)));
   const Real f = root > real(0.0f) ? x * (a + b) / root : real(0.5f);
   const Real start = to_real(c) + real(STOKES_LAMBDA_MIN);

@@ -12,15 +12,14 @@ namespace stokes {
 /// Appends the table of a density to `out`: STOKES_CDF_STRIDE floats. `density` has both ends of each cell, `cdf` the sums 0 ... 1.
 inline void append_cumulative_table(std::vector<float>& out, std::span<const float> density, const std::array<float, STOKES_SPECTRUM_CELLS + 1>& cdf) {
   for (std::size_t c = 0; c < STOKES_SPECTRUM_CELLS; c++) {
-    const float cell[] = {cdf[c], cdf[c + 1] - cdf[c], density[2 * c], density[2 * c + 1]};
+    const float cell[] = {cdf[c], cdf[c + 1], density[2 * c], density[2 * c + 1]};
     out.insert(out.end(), std::begin(cell), std::end(cell));
   }
   std::size_t cell = 0;
-  for (int i = 0; i < STOKES_CDF_GUIDES; i++)
-    for (const int end : {i, i + 1}) {
-      while (cell + 1 < STOKES_SPECTRUM_CELLS && cdf[cell + 1] <= float(end) / STOKES_CDF_GUIDES) cell++;
-      out.push_back(float(cell));
-    }
+  for (int i = 0; i < STOKES_CDF_GUIDES; i++) {
+    while (cell + 1 < STOKES_SPECTRUM_CELLS && cdf[cell + 1] <= float(i) / STOKES_CDF_GUIDES) cell++;
+    out.push_back(float(cell));
+  }
 }
 
 }  // namespace stokes

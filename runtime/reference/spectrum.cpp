@@ -76,8 +76,8 @@ double distribution_sample(const CompiledScene& scene, std::uint32_t distributio
   const auto indices = std::views::iota(std::size_t{0}, std::size_t{STOKES_SPECTRUM_CELLS});
   const auto above = std::ranges::upper_bound(indices, static_cast<float>(u), {}, [cells](std::size_t i) { return cells[4 * i]; });
   const std::size_t cell = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, above - indices.begin())) - 1;
-  const double begin = cells[4 * cell], mass = cells[4 * cell + 1];
-  const double inside = mass > 0 ? std::clamp((u - begin) / mass, 0.0, 1.0) : 0.5;
+  const double begin = cells[4 * cell], end = cells[4 * cell + 1];
+  const double inside = end > begin ? std::clamp((u - begin) / (end - begin), 0.0, 1.0) : 0.5;
   const float* ends = &scene.spectra[std::size_t(d.spectrum) * STOKES_SPECTRUM_STRIDE + 2 * cell];
   const double a = std::max(0.0f, ends[0]), b = std::max(0.0f, ends[1]);
   const double x = sample_linear(a, b, inside);

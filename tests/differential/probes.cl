@@ -118,7 +118,7 @@ __kernel void probe_distribution(SCENE_ARGUMENTS, const __global uint* ids, cons
   SCENE_VIEW;
   const Int i = elements(), id = gather_int(ids, i);
   Real pdf;
-  const Real lambda = distribution_sample(view, id, gather_real(us, i), &pdf);
+  const Real lambda = distribution_sample(view, id, gather_real(us, i), all_lanes(), &pdf);
   put(lambdas, i, lambda);
   put(pdfs, i, pdf);
   put(evaluated, i, distribution_pdf(view, id, lambda));
