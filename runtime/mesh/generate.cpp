@@ -23,7 +23,7 @@ MeshData generate_head(const GeneratorOptions& options) {
   if (!options.pose.empty()) throw std::invalid_argument("the head has no poses; use the parameter \"pitch\"");
   for (const auto& [name, value] : options.parameters) {
     if (name == "pitch" && std::abs(value) <= 30) shape.pitch = value;
-    else if (name == "cut" && value >= -200 && value <= -125) shape.cut_y = value;
+    else if (name == "cut" && value >= -240 && value <= -125) shape.cut_y = value;
     else if (name == "asymmetry" && std::abs(value) <= 3) shape.asymmetry = value;
     else if (name == "pitch" || name == "cut" || name == "asymmetry") throw std::invalid_argument("the head's parameter \"" + name + "\" is out of range");
     else unknown_parameter("head", name);

@@ -10,7 +10,7 @@ namespace stokes {
 
 struct HeadShape {
   double pitch = 0;          ///< degrees, positive looks up, about the atlas joint
-  double cut_y = -148;       ///< the flat bottom of the neck
+  double cut_y = -226;       ///< the flat bottom of the bust; above -160 only the neck is left
   double asymmetry = 0.5;    ///< gentle left-right wander of the midline, mm
 };
 

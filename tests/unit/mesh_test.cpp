@@ -132,7 +132,7 @@ TEST(Offset, OpenMeshIsRefused) {
 TEST(Generators, HeadAndHandAreClosedAndOfHumanSize) {
   const MeshData head = generate_mesh("head", {4, "", {}});
   EXPECT_TRUE(mesh_topology(head).watertight());
-  EXPECT_NEAR(volume(head) / 1e6, 4.25, 0.15);  // litres
+  EXPECT_NEAR(volume(head) / 1e6, 5.2, 0.15);  // litres, shoulders included
   ASSERT_EQ(head.masks.size(), 3u);
   EXPECT_EQ(head.masks[0].second.size(), head.positions.size());
   for (const char* pose : {"open", "cupping", "pointing"}) {
