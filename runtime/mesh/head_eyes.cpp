@@ -7,7 +7,7 @@ using namespace sdf;
 
 namespace {
 
-constexpr double kEyeX = 32.5, kEyeZ = 72;  // half the interpupillary distance; depth of the eyeball
+constexpr double kEyeX = 32.5, kEyeZ = 72.8;  // half the interpupillary distance; depth of the eyeball
 
 // Height of the free edge of the closed upper lid over u = (|x| - eye) / 16.
 double lid_edge(double u) { return -9.6 + 5.2 * u * u + u; }
@@ -18,13 +18,13 @@ double Eyes::operator()(double d, Vec3d m) const {
   const double x = m.x, y = m.y, gate = smooth_step(55, 68, m.z);
   if (length_squared(m - Vec3d{33, -2, 76}) > 48 * 48) return d;
   d = smooth_min(d, fold(m), 7);
-  d = smooth_min(d, ellipsoid(m, {kEyeX, -5, kEyeZ - 1.2}, {16.5, 13.2, 13.6}), 6);                           // globe under the lower lid
+  d = smooth_min(d, ellipsoid(m, {kEyeX, -5, kEyeZ - 2}, {16.5, 13, 13.6}), 6);                           // globe under the lower lid
   // The upper lid lies over the globe and ends at the lashes: crisp there, soft under the brow.
   const double u = (x - kEyeX) / 16;
-  const double lid = smooth_max(ellipsoid(m, {kEyeX, -1, kEyeZ}, {17.5, 13.6, 15.2}), (lid_edge(u) - y) * 0.86, 1.3);
+  const double lid = smooth_max(ellipsoid(m, {kEyeX, -1.5, kEyeZ}, {17, 13.2, 15.8}), (lid_edge(u) - y) * 0.86, 1.3);
   d = smooth_min(d, lid, 1.8 + 5 * smooth_step(-6, 5, y));
   d = smooth_min(d, margin(m), 1.2);
-  d += 0.7 * bump(lash_line.distance(x, y), 2.0) * gate;
+  d += 0.75 * bump(lash_line.distance(x, y), 2.2) * gate * smooth_step(15, 22, x);
   d += 1.1 * bump(crease.distance(x, y), 3.0) * gate * bump(x - kEyeX - 1, 23);
   return d + 0.6 * bump(lower_crease.distance(x, y), 6) * gate;
 }
@@ -33,8 +33,8 @@ SplineTube Eyes::make_margin() {
   std::vector<TubePoint> points;
   for (int i = 0; i < 9; i++) {
     const double k = -0.96 + 1.92 * i / 8, y = lid_edge(k) + 0.5;
-    const double h = 1 - (16 * k / 17.5) * (16 * k / 17.5) - ((y + 1) / 13.6) * ((y + 1) / 13.6);
-    points.push_back({kEyeX + 16 * k, y, kEyeZ - 0.6 + 15.2 * std::sqrt(std::max(h, 0.02)), 1.35 - 0.6 * std::abs(k)});
+    const double h = 1 - (16 * k / 17) * (16 * k / 17) - ((y + 1.5) / 13.2) * ((y + 1.5) / 13.2);
+    points.push_back({kEyeX + 16 * k, y, kEyeZ - 0.6 + 15.8 * std::sqrt(std::max(h, 0.02)), 1.35 - 0.6 * std::abs(k)});
   }
   return SplineTube(points);
 }

@@ -10,7 +10,7 @@ Neck::Neck(Vec3d a)
       clavicular_head({{46, -95, 6, 6}, {38, -145, 14, 7}, {34, -190, 19, 6}}) {}
 
 double Neck::operator()(Vec3d n, Vec3d nm) const {
-  double d = smooth_min(capsule(n, {0, -30, -8}, {0, -215, -30}, 43, 48), ellipsoid(n, {0, -140, 7}, {36, 70, 31}), 16);
+  double d = smooth_min(capsule(n, {0, -30, -8}, {0, -215, -37}, 43, 51), ellipsoid(n, {0, -140, 7}, {36, 70, 31}), 16);
   d = smooth_min(d, ellipsoid(n, {0, -142, 30}, {8, 16, 13}), 10);                    // larynx
   d = smooth_min(d, trapezius(nm), 22);
   d = smooth_min(d, ellipsoid(n, {0, -250, -22}, {125, 70, 62}), 20);                  // chest and back

@@ -13,7 +13,7 @@ double Nose::operator()(double d, Vec3d p, Vec3d m) const {
   d = smooth_min(d, lobule, 6);
   d = smooth_min(d, ellipsoid(m, {15.8, -40.6, 95.5}, {6.6, 7.4, 11}, ala), 7);
   d += 0.55 * bump(alar_groove.distance(p.z, p.y), 3.6) * smooth_step(9, 13, m.x) * (1 - smooth_step(20, 25, m.x));
-  d = smooth_min(d, capsule(p, {0, -43.5, 108}, {0, -48, 95}, 3.4, 4.6), 8);  // columella
+  d = smooth_min(d, capsule(p, {0, -43, 108}, {0, -46.5, 95}, 3.4, 4.4), 8);  // columella
   return carve(d, ellipsoid(m, {8.6, -49, 100}, {3.6, 5.2, 6.2}, nostril), 3);
 }
 

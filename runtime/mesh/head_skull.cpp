@@ -32,11 +32,11 @@ double Skull::jaw(Vec3d p) const {
 double Skull::operator()(Vec3d p, Vec3d m) const {
   double d = cranium(p);
   d = smooth_min(d, face(p, m), 24);
-  d = carve(d, ellipsoid(m, {80, 10, 66}, {15, 34, 28}), 16);                         // temple
+  d = carve(d, ellipsoid(m, {80, 10, 66}, {15, 34, 28}), 22);                         // temple
   d = smooth_min(d, jaw(p), 16);
   d = smooth_min(d, smooth_min(ellipsoid(m, {47, -21, 64.5}, {15, 10, 18}, malar), arch(m), 20), 24);  // cheekbone
-  d = smooth_min(d, smooth_min(brow_ridge(m), ellipsoid(p, {0, 15, 85}, {16, 10, 10}), 10), 15);
-  return carve(d, ellipsoid(m, {34, -3, 98.5}, {20.5, 13, 19}, orbit), 10);
+  d = smooth_min(d, smooth_min(brow_ridge({std::sqrt(p.x * p.x + 36), p.y, p.z}), ellipsoid(p, {0, 15, 85}, {16, 10, 10}), 10), 12);
+  return carve(d, ellipsoid(m, {34, -3, 98.5}, {20.5, 13, 19}, orbit), 9);
 }
 
 }  // namespace stokes
