@@ -18,17 +18,10 @@
 // Only media much denser than the scene is large.
 #define BALL_DENSITY 0.1f
 
-// Thin media: how likely light is sought along a flight that the camera does not see straight or by mirrors.
-#ifndef AIRLIGHT_AFTER_BOUNCES
-#define AIRLIGHT_AFTER_BOUNCES 0.5f
-#endif
-
-/// Where along a flight through a thin medium light of a lamp might be sought.
+/// Where along a flight through a thin medium the light of a lamp is sought.
 typedef struct {
   Mask chosen;            // in a thin medium: a light was chosen for this flight
-  Mask possible;          // it is a lamp, not the surroundings
-  Mask sought;            // some of these, by chance
-  Real probability;       // of that
+  Mask sought;            // it is a lamp, not the surroundings
   LightNumbers numbers;   // of the light, for every vertex that the flight has in the medium
   Equiangular distances;
   Throughput before;      // at the flight's start
@@ -130,21 +123,18 @@ STOKES_FN Mask dyes_along(const SceneView* view, PathState* path, Real length, M
   return found;
 }
 
-/// Chooses a light for the flights through thin media that may still scatter, and whether it is sought along them.
+/// Chooses a light for the flights through thin media that may still scatter.
 STOKES_FN void airlight_choose(const SceneView* view, PathState* path, Airlight* a, Real3* place, Real* size2) {
   const Int max_bounces = integer((int)min(view->scene->max_bounces, 0x7fffffffu));
   const Mask thin = path->alive & ((path->medium.flags & (int)MEDIUM_THIN) != integer(0)) & (path->bounces < max_bounces);
-  a->share = a->probability = real(1.0f);
+  a->share = real(1.0f);
   a->chosen = thin;
-  a->possible = a->sought = no_lanes();
+  a->sought = no_lanes();
   if (!any(thin)) return;
   a->numbers.choice = path_random(path, thin);
   a->numbers.u1 = path_random(path, thin);
   a->numbers.u2 = path_random(path, thin);
-  a->possible = light_place(view, &a->numbers, thin, place, size2);
-  // The same for every hero: the share below relies on it.
-  a->probability = path->pdf < real(0.0f) ? real(1.0f) : real(AIRLIGHT_AFTER_BOUNCES);
-  a->sought = a->possible & (path_random(path, a->possible) < a->probability);
+  a->sought = light_place(view, &a->numbers, thin, place, size2);
 }
 
 /// The sum over the slots of their path densities.
@@ -158,7 +148,7 @@ STOKES_FN Real density_sum(const Throughput* t) {
 /// What next-event estimation counts for at a vertex at `distance` along the flight, by the balance heuristic: the flights of all slots, whose
 /// densities of scattering there sum up to `scattering`, might have found it, and so might the search along the way.
 STOKES_FN Real airlight_share(const Airlight* a, Real distance, Real scattering) {
-  const Real searching = a->probability * equiangular_pdf(&a->distances, distance) * density_sum(&a->before);
+  const Real searching = equiangular_pdf(&a->distances, distance) * density_sum(&a->before);
   return scattering > real(0.0f) ? scattering / (scattering + searching) : real(0.0f);
 }
 
@@ -169,7 +159,7 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
   Mask tracing = path->alive;
   Real3 lamp;
   Real lamp_size2;
-  f.airlight.chosen = f.airlight.possible = no_lanes();
+  f.airlight.chosen = f.airlight.sought = no_lanes();
   if (SCENE_HAS_THIN_MEDIA) airlight_choose(view, path, &f.airlight, &lamp, &lamp_size2);
   if (SCENE_HAS_MEDIA) {
     const Real u = random_next(&path->rng);
@@ -182,7 +172,7 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
     dyed = path->alive & (path->medium.index != integer(0));
     reach = dyed ? real(STOKES_FAR) : reach;
   }
-  if (SCENE_HAS_THIN_MEDIA) reach = f.airlight.possible ? real(STOKES_FAR) : reach;
+  if (SCENE_HAS_THIN_MEDIA) reach = f.airlight.sought ? real(STOKES_FAR) : reach;
   f.hit.primitive = integer(-1);
   f.hit.t = f.hit.u = f.hit.v = real(0.0f);
   if (any(tracing)) f.hit = closest_hit(view, path->origin, path->direction, reach, path->exclude, tracing);
@@ -194,7 +184,7 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
     f.at_surface = f.at_surface & !f.glowing & (f.hit.t < f.length);
   }
   if (SCENE_HAS_THIN_MEDIA) {
-    if (any(f.airlight.possible))
+    if (any(f.airlight.sought))
       f.airlight.distances = equiangular_towards(path->origin, path->direction, lamp, lamp_size2, f.at_surface ? f.hit.t : real(STOKES_FAR));
     f.airlight.before = path->throughput;
     f.at_surface = f.at_surface & (f.hit.t < f.length);
@@ -205,7 +195,7 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
   if (SCENE_HAS_MEDIA) {
     medium_travel(&path->medium, &path->throughput, f.length, path->alive & !f.glowing, f.in_medium & !f.glowing);
     count_lanes(counters, COUNTER_SCATTERINGS, f.in_medium);
-    const Mask shared = SCENE_HAS_THIN_MEDIA ? f.in_medium & f.airlight.possible : no_lanes();
+    const Mask shared = SCENE_HAS_THIN_MEDIA ? f.in_medium & f.airlight.sought : no_lanes();
     if (any(shared)) {
       const Real sigma_t = medium_hero_sigma_t(&path->medium, &path->throughput);
       const Real scattering = sigma_t * exp_real(-sigma_t * f.length) * density_sum(&path->throughput);

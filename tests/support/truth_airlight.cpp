@@ -205,8 +205,8 @@ std::vector<TruthCase> airlight_cases() {
           before_a_wall(forward),
           chromatic("chromatic", {0.05, 0.9, 0}, {0.4, 0.5, 0.6}),
           chromatic("clear_below_550", clear, forward),
-          ball({0.8, 0.7, 0.3}, ColorMode::Rgb),
-          ball({0.8, 0.7, 0.3}, ColorMode::Spectral)};
+          ball({0.5, 0.7, 0.3}, ColorMode::Rgb),
+          ball({0.5, 0.7, 0.3}, ColorMode::Spectral)};
 }
 
 }  // namespace stokes::tests
