@@ -52,7 +52,7 @@ Field head_field(const HeadShape& shape) {
     d = parts->mouth(d, p, m);
     d = parts->eyes(d, m);
     d = smooth_min(d, parts->neck(n, {m.x, n.y, n.z}), 18);
-    d = smooth_min(d, parts->ear(m), 3.5);
+    d = smooth_min(d, parts->ear(m), 5);
     return smooth_max(d, shape.cut_y - n.y, 3);
   };
 }

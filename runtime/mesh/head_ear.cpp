@@ -27,7 +27,7 @@ double Ear::operator()(Vec3d m) const {
   const Vec3d l{dot(q, e), dot(q, v), dot(q, out)};
   double d = ellipsoid(l, {5.5, 2, 0.2}, {16.5, 27, 3.8}, plate);
   d = smooth_min(d, ellipsoid(l, {-3, -1, -7}, {9, 19, 8}), 5);                    // root
-  d = smooth_min(d, ellipsoid(l, {-2, -25, 1.6}, {7.2, 8.5, 3.2}, lobule), 4);
+  d = smooth_min(d, ellipsoid(l, {-2, -25, 1.4}, {7.4, 8.7, 3.9}, lobule), 5);
   d = smooth_min(d, antihelix(l), 2.5);
   d = smooth_min(d, crus(l), 2.5);
   d = smooth_min(d, antitragus(l), 2.5);
