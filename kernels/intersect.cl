@@ -17,19 +17,21 @@ STOKES_FN void keep_nearer(Hit* hit, Real t, int i) {
 }
 
 STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int exclude, Mask active, Hit* hit) {
-  float ox[LANES], oy[LANES], oz[LANES], dx[LANES], dy[LANES], dz[LANES], ts[LANES], us[LANES], vs[LANES];
+  const BvhSlabs slabs = prepare_slabs(o, d);
+  const Mask meeting = active & meet_tree(view->bvh_nodes, &slabs, hit->t);
+  if (!any(meeting)) return;
+  BvhRays rays;
+  prepare_rays(&slabs, o, d, &rays);
+  float ts[LANES], us[LANES], vs[LANES];
   int excludes[LANES], primitives[LANES];
-  store_real(o.x, ox), store_real(o.y, oy), store_real(o.z, oz);
-  store_real(d.x, dx), store_real(d.y, dy), store_real(d.z, dz);
   store_real(hit->t, ts), store_real(hit->u, us), store_real(hit->v, vs);
   store_int(exclude, excludes), store_int(hit->primitive, primitives);
   const int first = first_triangle(view);
-  for (uint lanes = lane_bits(active); lanes != 0u; lanes &= lanes - 1u) {
+  for (uint lanes = lane_bits(meeting); lanes != 0u; lanes &= lanes - 1u) {
     const uint j = lowest_lane(lanes);
     TriangleHit found = {ts[j], 0.0f, 0.0f, STOKES_NONE};
     // A negative difference is no triangle's index, and an unused slot is never hit.
-    traverse_closest(view->bvh_nodes, view->bvh_leaves, (float3)(ox[j], oy[j], oz[j]), (float3)(dx[j], dy[j], dz[j]),
-                     (uint)(excludes[j] - first), &found);
+    traverse_closest(view->bvh_nodes, view->bvh_leaves, &rays, j, (uint)(excludes[j] - first), &found);
     if (found.index == STOKES_NONE) continue;
     ts[j] = found.t;
     us[j] = found.b1;
@@ -66,16 +68,18 @@ STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, In
 }
 
 STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
-  float ox[LANES], oy[LANES], oz[LANES], dx[LANES], dy[LANES], dz[LANES], ts[LANES];
+  const BvhSlabs slabs = prepare_slabs(o, d);
+  const Mask meeting = active & meet_tree(view->bvh_nodes, &slabs, tmax);
+  if (!any(meeting)) return no_lanes();
+  BvhRays rays;
+  prepare_rays(&slabs, o, d, &rays);
+  float ts[LANES];
   int excludes[LANES];
-  store_real(o.x, ox), store_real(o.y, oy), store_real(o.z, oz);
-  store_real(d.x, dx), store_real(d.y, dy), store_real(d.z, dz);
   store_real(tmax, ts), store_int(exclude, excludes);
   uint blocked = 0u;
-  for (uint lanes = lane_bits(active); lanes != 0u; lanes &= lanes - 1u) {
+  for (uint lanes = lane_bits(meeting); lanes != 0u; lanes &= lanes - 1u) {
     const uint j = lowest_lane(lanes);
-    if (traverse_any(view->bvh_nodes, view->bvh_leaves, (float3)(ox[j], oy[j], oz[j]), (float3)(dx[j], dy[j], dz[j]),
-                     (uint)(excludes[j] - first_triangle(view)), ts[j]))
+    if (traverse_any(view->bvh_nodes, view->bvh_leaves, &rays, j, (uint)(excludes[j] - first_triangle(view)), ts[j]))
       blocked |= 1u << j;
   }
   return lane_mask(blocked);

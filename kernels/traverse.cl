@@ -1,4 +1,4 @@
-// The BVH walk of one ray, with the BVH_WIDTH children of a node (and the triangles of a leaf block) side by side in one vector.
+// The BVH walk of one ray at a time, with the BVH_WIDTH children of a node (and the triangles of a leaf block) side by side in one vector.
 // Knows boxes and triangles, not surfaces or lanes.
 //
 // No ray slips through the edges and vertices of a closed mesh:
@@ -9,12 +9,7 @@
 // - Boxes are tested as if grown by more than the rounding of the slabs and of the shear.
 #ifndef STOKES_TRAVERSE_CL
 #define STOKES_TRAVERSE_CL
-#include "lanes.h"
-#include "layout.h"
-
-#ifndef BVH_WIDTH
-#define BVH_WIDTH 8
-#endif
+#include "bvh_ray.cl"
 
 // Enough for 85 levels, the deepest tree that the builder makes.
 #if BVH_WIDTH == 8
@@ -27,86 +22,11 @@
 #error "BVH_WIDTH must be 8, 4 or 2"
 #endif
 
-typedef STOKES_JOIN(float, BVH_WIDTH) Wide;
-typedef STOKES_JOIN(int, BVH_WIDTH) WideMask;
-#define STORE_WIDE(x, p) STOKES_JOIN(vstore, BVH_WIDTH)(x, 0, p)
-
-/// Bit k is set where component k is true.
-STOKES_FN uint wide_bits(WideMask m) {
-#if BVH_WIDTH == 8
-  return mask_bits8(m);
-#elif BVH_WIDTH == 4 && STOKES_X86
-  return (uint)__builtin_ia32_movmskps(as_float4(m));
-#elif BVH_WIDTH == 4
-  const int4 b = m & (int4)(1, 2, 4, 8);
-  const int2 c = b.lo | b.hi;
-  return (uint)(c.x | c.y);
-#else
-  return (uint)((m.x & 1) | (m.y & 2));
-#endif
-}
-STOKES_FN Wide wide(float x) { return (Wide)(x); }
-STOKES_FN Wide min_wide(Wide a, Wide b) { return a < b ? a : b; }
-STOKES_FN Wide max_wide(Wide a, Wide b) { return a > b ? a : b; }
-
-/// A ray prepared for boxes and triangles.
-typedef struct {
-  // Slabs: distance to a plane b is fma(b, inv, add), rounded towards a longer interval.
-  Wide near_inv[3], near_add[3], far_inv[3], far_add[3];
-  uint near_row[3];  // 0: the minimum is met first, 1: the maximum
-  // Shear: axis z is where |d| is largest.
-  uint row_x, row_y, row_z;
-  Wide ox, oy, oz, shear_x, shear_y;
-  float inv_dz;
-} BvhRay;
-
 /// The nearest triangle so far; index STOKES_NONE: none.
 typedef struct {
   float t, b1, b2;
   uint index;
 } TriangleHit;
-
-// The error of a slab distance is a few units of 2^-24, relative to the distance and to the origin's own coordinate.
-// Both are covered fourfold; the floor serves rays that start at zero and run along an axis.
-#define STOKES_SLAB_RELATIVE 9.5367431640625e-7f
-#define STOKES_SLAB_ORIGIN 2.384185791015625e-7f
-#define STOKES_SLAB_FLOOR 1e-12f
-#define STOKES_FAR 1e18f
-
-STOKES_FN void prepare_slab(BvhRay* ray, int axis, float o, float d, float pad) {
-  const float magnitude = fabs(d);
-  const float inv = 1.0f / (magnitude > 1e-24f ? d : (d < 0.0f ? -1e-24f : 1e-24f));
-  const float far_inv = inv * (1.0f + STOKES_SLAB_RELATIVE);
-  const float slack = pad * fabs(inv);
-  ray->near_row[axis] = inv < 0.0f ? 1u : 0u;
-  ray->near_inv[axis] = wide(inv);
-  ray->near_add[axis] = wide(-(o * inv) - slack);
-  ray->far_inv[axis] = wide(far_inv);
-  ray->far_add[axis] = wide(slack - o * far_inv);
-}
-
-/// d need not be unit, but must not be zero.
-STOKES_FN void prepare_ray(BvhRay* ray, float3 o, float3 d) {
-  const float ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
-  const float reach = fmax(fmax(fabs(o.x), fabs(o.y)), fabs(o.z));
-  const float pad = fmax(reach * STOKES_SLAB_ORIGIN, STOKES_SLAB_FLOOR);
-  prepare_slab(ray, 0, o.x, d.x, pad);
-  prepare_slab(ray, 1, o.y, d.y, pad);
-  prepare_slab(ray, 2, o.z, d.z, pad);
-  const int z_is_x = ax > ay && ax > az;
-  const int z_is_y = !z_is_x && ay > az;
-  ray->row_z = z_is_x ? 0u : z_is_y ? 1u : 2u;
-  ray->row_x = z_is_x ? 1u : z_is_y ? 2u : 0u;
-  ray->row_y = z_is_x ? 2u : z_is_y ? 0u : 1u;
-  const float3 p = z_is_x ? o.yzx : z_is_y ? o.zxy : o;
-  const float3 v = z_is_x ? d.yzx : z_is_y ? d.zxy : d;
-  ray->inv_dz = 1.0f / v.z;
-  ray->ox = wide(p.x);
-  ray->oy = wide(p.y);
-  ray->oz = wide(p.z);
-  ray->shear_x = wide(-(v.x * ray->inv_dz));
-  ray->shear_y = wide(-(v.y * ray->inv_dz));
-}
 
 /// The children whose boxes the ray meets before `limit`, as bits; *near receives the distances at which it enters them.
 STOKES_FN uint meet_boxes(const __global float* node, const BvhRay* ray, float limit, Wide* near) {
@@ -211,11 +131,11 @@ STOKES_FN int push_sorted(const __global float* nodes, const __global float* lea
   return top;
 }
 
-/// Lowers *hit (whose t is the ray's end) to the nearest triangle other than `exclude`.
-STOKES_NOINLINE void traverse_closest(const __global float* nodes, const __global float* leaves, float3 o, float3 d,
+/// Lowers *hit (whose t is the ray's end) to the nearest triangle other than `exclude` on lane j's ray.
+STOKES_NOINLINE void traverse_closest(const __global float* nodes, const __global float* leaves, const BvhRays* rays, uint j,
                                       uint exclude, TriangleHit* hit) {
   BvhRay ray;
-  prepare_ray(&ray, o, d);
+  pick_ray(rays, j, &ray);
   ulong stack[STOKES_STACK];
   int top = 0;
   uint current = 0u;
@@ -251,11 +171,11 @@ STOKES_NOINLINE void traverse_closest(const __global float* nodes, const __globa
   }
 }
 
-/// 1 if any triangle other than `exclude` lies in (0, limit).
-STOKES_NOINLINE int traverse_any(const __global float* nodes, const __global float* leaves, float3 o, float3 d, uint exclude,
+/// 1 if any triangle other than `exclude` lies in (0, limit) on lane j's ray.
+STOKES_NOINLINE int traverse_any(const __global float* nodes, const __global float* leaves, const BvhRays* rays, uint j, uint exclude,
                                  float limit) {
   BvhRay ray;
-  prepare_ray(&ray, o, d);
+  pick_ray(rays, j, &ray);
   uint stack[STOKES_STACK];
   int top = 1;
   stack[0] = 0u;

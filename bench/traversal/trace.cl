@@ -8,7 +8,11 @@ __kernel void trace(const __global float* nodes, const __global float* leaves, u
   for (uint i = first; i < first + chunk; i++) {
     const __global float* r = rays + 8 * i;
     TriangleHit hit = {r[6], 0.0f, 0.0f, STOKES_NONE};
-    traverse_closest(nodes, leaves, (float3)(r[0], r[1], r[2]), (float3)(r[3], r[4], r[5]), STOKES_NONE, &hit);
+    const Real3 o = real3(real(r[0]), real(r[1]), real(r[2])), d = real3(real(r[3]), real(r[4]), real(r[5]));
+    const BvhSlabs slabs = prepare_slabs(o, d);
+    BvhRays prepared;
+    prepare_rays(&slabs, o, d, &prepared);
+    traverse_closest(nodes, leaves, &prepared, 0u, STOKES_NONE, &hit);
     distances[i] = hit.index == STOKES_NONE ? -1.0f : hit.t;
     triangles[i] = hit.index;
   }
