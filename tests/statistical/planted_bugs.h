@@ -67,6 +67,14 @@ inline constexpr PlantedBug kPlantedBugs[] = {
      "(out ? point->medium_inside : point->medium_outside)"},
     {"shadow_ray_keeps_its_medium", "fog_parity", "shadow.cl", "ray->medium = walking ? (out ? point.medium_outside : point.medium_inside) : ray->medium;", ""},
 
+    {"equiangular_density_forgotten", "airlight_sphere", "flight.cl", "scattering / (scattering + searching)", "real(1.0f)"},
+    {"equiangular_jacobian_lost", "airlight_sphere", "equiangular.cl", "e->height / (e->angle * fma(e->height, e->height, along * along))",
+     "real(1.0f) / (e->angle * e->height)"},
+    {"lamp_along_the_flight_is_not_that_at_its_end", "lamps_in_fog_parity", "airlight.cl", "in_medium & a->chosen : no_lanes()",
+     "in_medium & a->sought : no_lanes()"},
+    {"equiangular_beyond_the_surface", "airlight_before_a_wall", "flight.cl", "f.at_surface ? f.hit.t : real(STOKES_FAR));", "real(STOKES_FAR));"},
+    {"densities_of_heroes_before_the_flight_forgotten", "airlight_chromatic", "flight.cl", "distance) * density_sum(&a->before)", "distance)"},
+
     // ---- Fluorescence --------------------------------------------------------------------------------------------
     {"excitation_density_forgotten", "fluorescent_patch_2_mis", "fluorescence.cl", "(photon ? li : real(1.0f)) * scale / pdf", "(photon ? li : real(1.0f)) * scale"},
     {"photon_yield_without_li_over_lo", "fluorescent_patch_2_mis", "fluorescence.cl", "e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];",

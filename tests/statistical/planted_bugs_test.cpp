@@ -75,7 +75,7 @@ double run_check(const std::string& name, const std::string& kernel_dir) {
     std::printf("%s", describe(r).c_str());
     return std::abs(r.worst.z) / r.threshold;
   }
-  for (const auto& all : {furnace_cases(), boundary_cases(), slab_cases(), chromatic_cases(), fluorescence_cases()})
+  for (const auto& all : {furnace_cases(), boundary_cases(), slab_cases(), chromatic_cases(), airlight_cases(), fluorescence_cases()})
     for (const TruthCase& c : all)
       if (c.name == name) return deviation_from_truth(c, kernel_dir) / kNoticed;
   throw std::runtime_error("no such check: " + name);

@@ -58,10 +58,34 @@ ParityScene rough_ball() {
   return p;
 }
 
+/// A ball of thin chromatic fog in the void, over a floor: lamps of all shapes in it, under a dim sky. `camera_inside` puts the camera in it.
+ParityScene lamps_in_fog(bool camera_inside, ColorMode mode) {
+  ParityScene p;
+  const double distance = camera_inside ? 1.2 : 4;
+  p.scene = empty_scene(parallel_camera(20, distance, camera_inside ? 1.2 : 2.4, kPixels), IntegratorKind::Mis, mode);
+  auto fog = std::make_shared<MediumDescription>();
+  fog->sigma_t = sum({box(280, 550, 0.15), box(550, 780, 0.4)});
+  fog->albedo = number(0.9);
+  fog->g = sum({box(280, 550, 0), box(550, 780, 0.5)});
+  const MediumPtr medium = fog;
+  p.scene.camera.medium = camera_inside ? medium : MediumPtr();
+  SurfaceDescription boundary = sphere({}, 2, interface_material()), floor = horizontal_square(-0.6, 2, lambertian(0.3));
+  boundary.inside = floor.outside = floor.inside = medium;
+  SurfaceDescription flat = lamp({0.5, 0.4, 0.4}, 0.1, 20), round = sphere({-0.4, 0.2, 0}, 0.04, black()), long_one = sphere({}, 1, black());
+  long_one.transform = translation({0.1, -0.5, 0.1}) * scaling({0.1, 0.02, 0.02});
+  round.emit = long_one.emit = number(20);
+  for (SurfaceDescription* s : {&flat, &round, &long_one}) s->outside = s->inside = medium;
+  round.inside = long_one.inside = nullptr;
+  p.scene.surfaces = {boundary, floor, flat, round, long_one};
+  p.scene.background.emission = number(0.02);
+  return p;
+}
+
 }  // namespace
 
 std::map<std::string, ParityScene> parity_scenes() {
-  return {{"texture_parity", textured_floor()}, {"fog_parity", foggy_floor()}, {"rough_parity", rough_ball()}};
+  return {{"texture_parity", textured_floor()}, {"fog_parity", foggy_floor()}, {"rough_parity", rough_ball()},
+          {"lamps_in_fog_parity", lamps_in_fog(true, ColorMode::Spectral)}, {"ball_of_fog_parity", lamps_in_fog(false, ColorMode::Spectral)}};
 }
 
 }  // namespace stokes::tests
