@@ -63,7 +63,7 @@ double* hand_parameter(HandPose& pose, const std::string& name) {
 MeshData generate_hand(const GeneratorOptions& options) {
   const std::string name = options.pose.empty() ? "open" : options.pose;
   const HandPose* known = find_hand_pose(name);
-  if (!known) throw std::invalid_argument("the hand has no pose \"" + name + "\"; it has open, cupping and pointing");
+  if (!known) throw std::invalid_argument("the hand has no pose \"" + name + "\"; it has open, relaxed, cupping and pointing");
   HandPose pose = *known;
   for (const auto& [parameter, value] : options.parameters) {
     double* target = hand_parameter(pose, parameter);

@@ -25,7 +25,7 @@ struct HandPose {
   double arch;  ///< how far the little finger's side of the palm rises, mm
 };
 
-/// The poses "open", "cupping" and "pointing"; nullptr for another name.
+/// The poses "open", "relaxed", "cupping" and "pointing"; nullptr for another name.
 const HandPose* find_hand_pose(const std::string& name);
 
 /// The signed distance to the hand's skin (first order near the surface).

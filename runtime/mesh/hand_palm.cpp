@@ -43,9 +43,9 @@ double rounded_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c, double r) {
 
 HandPalm::HandPalm(const HandSkeleton& skeleton, double arch) : skeleton_(skeleton), arch_(arch) {
   auto crease = [&](std::vector<std::array<double, 2>> points, double depth, double width) {
-    lines_.push_back({Curve2(points, 14), depth, width, width > 1.75 ? 0.75 : 0.3, 0.15, 0.75, true});
+    lines_.push_back({Curve2(points, 14), depth, width, width > 1.75 ? 0.45 : 0.3, 0.3, 0.75, true});
   };
-  crease({{-41, 61}, {-26, 67}, {-7, 70}, {8, 79}, {13, 90}}, 0.60, 1.8);   // distal
+  crease({{-36, 62}, {-26, 66}, {-7, 70}, {8, 79}, {13, 90}}, 0.55, 1.8);   // distal
   crease({{36, 73}, {22, 69}, {2, 59}, {-20, 44}}, 0.52, 1.8);              // proximal
   crease({{36, 72}, {23, 65}, {9.5, 49}, {5, 31}, {8, 12}}, 0.62, 1.9);     // thenar
   crease({{-25, 4}, {-10, 0}, {4, 1}, {20, 4}}, 0.42, 1.7);                 // wrist, distal
@@ -75,19 +75,19 @@ double HandPalm::flesh(Vec3d p) const {
   const Vec3d index = skeleton_.fingers[0].bones[0].origin - down, little = skeleton_.fingers[3].bones[0].origin - down;
   d = smooth_min(d, rounded_triangle(p, a, index, little, 10.6), 4);
   d = smooth_min(d, rounded_triangle(p, a, b, little, 10.6), 4);
-  for (const Digit& f : skeleton_.fingers) d = smooth_min(d, ellipsoid(f.bones[0].local(p), {0, -0.5, -5.2}, {7.6, 8.5, 6.2}), 5);  // knuckles
+  for (const Digit& f : skeleton_.fingers) d = smooth_min(d, ellipsoid(f.bones[0].local(p), {0, -1, -4.6}, {7.4, 10, 6.0}), 8);  // knuckles
   return d;
 }
 
 double HandPalm::eminences(double d, Vec3d p) const {
   Vec3d row[4];
-  for (int f = 0; f < 4; f++) row[f] = skeleton_.fingers[f].bones[0].origin + Vec3d{0, -5, 5.5};
-  const double pads[3] = {9.8, 9.6, 9.0};
+  for (int f = 0; f < 4; f++) row[f] = skeleton_.fingers[f].bones[0].origin + Vec3d{0, -5, 5.0};
+  const double pads[3] = {9.4, 9.2, 8.8};
   for (int f = 0; f < 3; f++) d = smooth_min(d, cone_between(p, row[f], row[f + 1], pads[f], pads[f] - 0.3), 6);
   // Hypothenar: from the pisiform along the little finger's rim.
-  const Vec3d rim{-22.5, 35, 8 + 0.5 * arch_};
-  d = smooth_min(d, cone_between(p, {-17, 10, 5}, rim, 12.8, 13.2), 12);
-  d = smooth_min(d, cone_between(p, rim, skeleton_.fingers[3].bones[0].origin + Vec3d{3, -6, 4}, 12.6, 9.4), 12);
+  const Vec3d rim{-22, 40, 6.5 + 0.5 * arch_};
+  d = smooth_min(d, cone_between(p, {-16.5, 12, 5}, rim, 12.4, 12.6), 12);
+  d = smooth_min(d, cone_between(p, rim, skeleton_.fingers[3].bones[0].origin + Vec3d{2.5, -6, 3}, 12.4, 10.4), 12);
   // Thenar: the belly along the thumb's metacarpal, on its palm side.
   const Bone& m = skeleton_.thumb.bones[0];
   d = smooth_min(d, ellipsoid(m.local(p), {-5.5, m.length * 0.42, 7}, {14.5, m.length * 0.62, 14.5}), 9);
@@ -100,7 +100,7 @@ double HandPalm::webs(double d, Vec3d p) const {
   const Vec3d a = kFingers[0].cmc, far = a + (skeleton_.fingers[0].bones[0].origin - a) * 0.86;
   const Vec3d thumb = skeleton_.thumb.bones[1].world({-2, 3, -1});
   d = smooth_min(d, rounded_triangle(p, a + Vec3d{4, 4, 4}, m.world({-2, m.length * 0.62, 0}), far + Vec3d{0, -8, 2}, 7), 9);
-  d = smooth_min(d, rounded_triangle(p, a + Vec3d{4, 20, 2}, thumb, far + Vec3d{0, 2, 1}, 4), 14);
+  d = smooth_min(d, rounded_triangle(p, a + Vec3d{4, 20, 2}, thumb, far + Vec3d{-3, -1, 0}, 4.5), 16);
   for (int f = 0; f < 3; f++) {
     const Bone &l = skeleton_.fingers[f].bones[0], &r = skeleton_.fingers[f + 1].bones[0];
     d = smooth_min(d, cone_between(p, l.world({0, l.length * 0.30, 1.5}), r.world({0, r.length * 0.30, 1.5}), 6.6, 6.2), 6);
@@ -112,7 +112,7 @@ double HandPalm::operator()(Vec3d p) const {
   double d = webs(eminences(flesh(p), p), p);
   if (d > 20) return d;
   const double front = smooth_step(-14, 5, p.z), line = smooth_step(-5, 7, p.z), back = smooth_step(2, 8, -p.z);
-  d += 4.5 * bump(std::hypot((p.x + 2 - 0.10 * (p.y - 50)) / 29, (p.y - 48) / 50), 1) * front;  // the hollow
+  d += 4.0 * bump(std::hypot((p.x + 2 - 0.10 * (p.y - 50)) / 28, (p.y - 45) / 42), 1) * front;  // the hollow
   for (const Line& l : lines_) {
     double u;
     const double t = l.curve.distance(p.x, p.y, &u);

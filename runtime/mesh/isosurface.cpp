@@ -73,15 +73,18 @@ const std::vector<std::vector<Polygon>>& case_table() {
   return table;
 }
 
-// Where the field crosses the level on the segment a-b, by a few steps of regula falsi from the linear guess.
-Vec3d crossing(Vec3d a, Vec3d b, double fa, double fb, double level, const Field* field) {
+constexpr int kFewSteps = 2, kManySteps = 12;  // enough for a smooth field; for one with kinks
+constexpr double kOnLevel = 1e-4;              // of the edge's length
+
+// Where the field crosses the level on the segment a-b, by some steps of regula falsi from the linear guess.
+Vec3d crossing(Vec3d a, Vec3d b, double fa, double fb, double level, const Field* field, int steps) {
   double t0 = 0, t1 = 1, t = (level - fa) / (fb - fa);
   if (field)
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < steps; i++) {
       const double f = (*field)(a + (b - a) * t);
       if ((f < level) == (fa < level)) t0 = t, fa = f;
       else t1 = t, fb = f;
-      if (fa == fb) break;
+      if (fa == fb || (steps > kFewSteps && std::abs(f - level) < kOnLevel * length(b - a))) break;
       t = t0 + (t1 - t0) * std::clamp((level - fa) / (fb - fa), 0.05, 0.95);
     }
   return a + (b - a) * std::clamp(t, 1e-3, 1 - 1e-3);  // never onto a corner: no triangle may collapse
@@ -121,7 +124,7 @@ void relax(MeshData& mesh, const Field& field, double level, double step) {
 
 }  // namespace
 
-MeshData isosurface(const Grid& g, double level, const Field* refine) {
+MeshData isosurface(const Grid& g, double level, const Field* refine, bool even) {
   MeshData mesh;
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_edge;
   auto corner = [](int i, int j, int k, int c) { return std::array<int, 3>{i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)}; };
@@ -131,7 +134,7 @@ MeshData isosurface(const Grid& g, double level, const Field* refine) {
     const auto [it, fresh] = vertex_of_edge.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
     if (fresh)
       mesh.positions.push_back(crossing(g.point(a[0], a[1], a[2]), g.point(b[0], b[1], b[2]), g.at(a[0], a[1], a[2]),
-                                        g.at(b[0], b[1], b[2]), level, refine));
+                                        g.at(b[0], b[1], b[2]), level, refine, even ? kFewSteps : kManySteps));
     return it->second;
   };
   for (int k = 0; k + 1 < g.nz; k++)
@@ -158,7 +161,7 @@ MeshData isosurface(const Grid& g, double level, const Field* refine) {
           }
         }
       }
-  if (!refine) return mesh;
+  if (!refine || !even) return mesh;
   relax(mesh, *refine, level, g.step);
   for (const Vec3d& p : mesh.positions) {
     const Vec3d n = gradient(*refine, p, 0.25 * g.step);

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "mesh/isosurface.h"
 #include "mesh/mesh_distance.h"
+#include "mesh/shell_level.h"
 #include "mesh/shell_repair.h"
 
 namespace stokes {
@@ -14,10 +14,8 @@ Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
   return cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
 }
 
-// A mesh that keeps its connectivity is taken when no face is flipped and no larger share of its faces and vertices is off by over 5 %.
+// A mesh that keeps its connectivity is taken when this share of its faces' middles, and nothing else, is off by over 5 %.
 constexpr double kAcceptedFaults = 0.02;
-
-bool worse(const ShellFaults& a, const ShellFaults& b) { return a.flipped != b.flipped ? a.flipped > b.flipped : a.off > b.off; }
 
 std::vector<Vec3d> vertex_normals(const MeshData& m) {
   std::vector<Vec3d> normals(m.positions.size());
@@ -69,22 +67,6 @@ MeshData shift_faces(const MeshData& mesh, double d) {
   return out;
 }
 
-// The level d of the distance by marching cubes, its vertices moved onto the exact distance along the line from the nearest point.
-MeshData distance_level(const MeshDistance& distance, Vec3d lo, Vec3d hi, double d, double step) {
-  const Vec3d margin = Vec3d{1, 1, 1} * (std::max(d, 0.0) + 2.5 * step);
-  const Field field = [&](Vec3d p) { return distance(p); };
-  MeshData out = isosurface(sample_field(field, lo - margin, hi + margin, step, d, 1.01), d, &field);
-  for (Vec3d& p : out.positions) {
-    Vec3d nearest;
-    double s = distance(p, &nearest);
-    for (int i = 0; i < 3 && std::abs(s - d) > 1e-9 * length(hi - lo) && s != 0; i++) {
-      p += (p - nearest) * ((d - s) / s);
-      s = distance(p, &nearest);
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipped) {
@@ -112,13 +94,17 @@ MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
   const MeshDistance distance(mesh);
   Vec3d lo = mesh.positions[0], hi = lo;
   for (const Vec3d& p : mesh.positions) lo = min(lo, p), hi = max(hi, p);
-  // As fine as half the distance asks and the mesh itself is, never so fine that the grid outgrows memory.
-  if (step <= 0) step = std::max(std::min(0.8 * mean_edge(mesh), std::abs(d)), length(hi - lo) / 500);
+  // As fine as the distance asks and the mesh itself is, never so fine that it has many times the mesh's faces or outgrows memory.
+  const double edge = mean_edge(mesh);
+  if (step <= 0) step = std::max(std::clamp(std::abs(d), 0.4 * edge, 0.8 * edge), length(hi - lo) / 500);
   MeshData out = shift_faces(mesh, d);
   const ShellFaults faults = repair_shell(out, distance, d);
-  if (faults.flipped > 0 || faults.off > kAcceptedFaults * static_cast<double>(out.triangles.size())) {
+  if (faults.flipped + faults.crossed + faults.off_vertices > 0 || faults.off_faces > kAcceptedFaults * static_cast<double>(out.triangles.size())) {
     MeshData level = distance_level(distance, lo, hi, d, step);
-    if (worse(faults, shell_faults(level, distance, d))) out = std::move(level);
+    ShellFaults level_faults = shell_faults(level, distance, d);
+    MeshData mended = level;
+    if (const ShellFaults left = repair_shell(mended, distance, d, true); worse(level_faults, left)) level = std::move(mended), level_faults = left;
+    if (worse(faults, level_faults)) out = std::move(level);
   }
   if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
   out.normals = vertex_normals(out);
