@@ -11,7 +11,7 @@ namespace stokes {
 struct GeneratorOptions {
   double resolution = 1.5;  ///< mm: spacing of the grid that the surface is cut from; 0.3 to 10
   std::string pose;         ///< hand: "open" (default), "relaxed", "cupping", "pointing"
-  /// Head: "pitch" (degrees), "cut" (mm), "asymmetry" (mm). Hand: joint angles in degrees as "index.mcp", "thumb.radial", and "arch" (mm).
+  /// Head: "pitch" (degrees), "cut" (mm, the height of the base), "asymmetry" (mm). Hand: joint angles in degrees as "index.mcp", "thumb.radial", and "arch" (mm).
   std::vector<std::pair<std::string, double>> parameters;
 };
 
