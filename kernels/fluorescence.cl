@@ -83,12 +83,6 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
   }
 }
 
-/// frac(u + k / N)
-STOKES_FN Real stratum(Real u, int k) {
-  const Real x = u + real((float)k / (float)WAVELENGTHS);
-  return x >= real(1.0f) ? x - real(1.0f) : x;
-}
-
 /// The throughput beyond an event at the chosen dye: the masked lanes of *out.
 STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeChoice* c, Real u, Mask mask, Throughput* out) {
   const Int dye = mask ? c->dye : integer(0);

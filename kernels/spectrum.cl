@@ -84,6 +84,12 @@ STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real
   return lambda;
 }
 
+/// frac(u + k / N), in (0, 1) as u is: the difference is exact, where the sum could round up to 1 and so to a wavelength without density.
+STOKES_FN Real stratum(Real u, int k) {
+  const Real x = u - real(1.0f - (float)k / (float)WAVELENGTHS);
+  return x > real(0.0f) ? x : u + real((float)k / (float)WAVELENGTHS);
+}
+
 /// The camera's wavelengths for the path's number u: wavelength k belongs to frac(u + k / WAVELENGTHS).
 /// inverse_pdf receives 1 / p in nm. In RGB mode the channel numbers, and 1.
 STOKES_FN void camera_wavelengths(const SceneView* view, Real u, Spectrum* lambda, Spectrum* inverse_pdf) {

@@ -123,6 +123,18 @@ __kernel void probe_distribution(SCENE_ARGUMENTS, const __global uint* ids, cons
   put(pdfs, i, pdf);
   put(evaluated, i, distribution_pdf(view, id, lambda));
 }
+__kernel void probe_strata(SCENE_ARGUMENTS, const __global float* us, __global float* least, __global float* most) {
+  SCENE_VIEW;
+  const Int i = elements();
+  Real low = real(1.0f), high = real(0.0f);
+  FOR_EACH_WAVELENGTH(k) {
+    const Real x = stratum(gather_real(us, i), k);
+    low = min_real(low, x);
+    high = max_real(high, x);
+  }
+  put(least, i, low);
+  put(most, i, high);
+}
 __kernel void probe_wavelengths(SCENE_ARGUMENTS, const __global float* us, __global float* lambdas, __global float* inverse_pdfs,
                                 __global float* rgb) {
   SCENE_VIEW;

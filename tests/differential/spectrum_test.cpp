@@ -117,6 +117,24 @@ TEST(KernelSpectrum, DistributionsAreSampledByTheirDensity) {
   }
 }
 
+// Numbers are odd multiples of 2^-24; just above 1/4 a plain sum with 3/4 rounds to 1, and what is left of it to 0.
+TEST(KernelSpectrum, StrataStayInsideTheUnitInterval) {
+  const CompiledScene scene = spectra_scene();
+  for (int count : {1, 4, 8}) {
+    KernelProgram program = program_for(scene, count);
+    const float ulp = std::ldexp(1.0f, -24);
+    std::vector<float> u, least, most;
+    for (int k = 0; k < 8; k++)
+      for (const float side : {-1.0f, 1.0f}) u.push_back(float(k) / 8 + side * ulp);
+    u.front() = u[1], least.resize(u.size()), most.resize(u.size());
+    program.run_with_scene("probe_strata", u.size() / 8, u, Out{least}, Out{most});
+    for (std::size_t i = 0; i < u.size(); i++) {
+      EXPECT_GT(least[i], 0) << count << " " << u[i];
+      EXPECT_LT(most[i], 1) << count << " " << u[i];
+    }
+  }
+}
+
 TEST(KernelSpectrum, CameraWavelengthsAreStratifiedAndTheirSensorIntegratesToWhite) {
   const CompiledScene scene = spectra_scene();
   for (int count : {1, 4, 8}) {
