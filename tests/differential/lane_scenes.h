@@ -1,4 +1,4 @@
-// Four small scenes that together use every part of the kernels, so that few builds see them all. For tests of bits, not of pictures.
+// Five small scenes that together use every part of the kernels, so that few builds see them all. For tests of bits, not of pictures.
 #pragma once
 
 namespace stokes::tests {
@@ -64,6 +64,32 @@ inline constexpr const char* kMediaScene = R"({
     {"type": "sphere", "radius": 0.8, "transform": {"translate": [-1, 0, 0]}, "material": "glass", "inside": "jade", "outside": "fog"},
     {"type": "mesh", "filename": "meshes/icosahedron.obj", "transform": {"translate": [1.1, 0, 0]}, "material": "boundary", "inside": "milk",
      "outside": "fog"}
+  ]
+})";
+
+/// Lamps in thin fog of a colour, beside a ball of denser fog, a boundary and a mirror.
+inline constexpr const char* kThinFogScene = R"({
+  "camera": {"transform": {"from": [0, 0.4, 4], "at": [0, 0, 0]}, "vfov": 44, "resolution": [20, 16], "medium": "haze"},
+  "integrator": {"type": "path tracer volumetric mis", "max bounces": 12, "russian roulette": 4},
+  "background": 0.1,
+  "media": [
+    {"type": "homogeneous", "name": "haze", "sigma_t": [0.05, 0.1, 0.2], "albedo": 0.9, "g": 0.3},
+    {"type": "homogeneous", "name": "cloud", "sigma_t": 12, "albedo": 0.9}
+  ],
+  "materials": [
+    {"type": "lambertian", "name": "white", "albedo": 0.75},
+    {"type": "metal", "name": "mirror", "albedo": 0.9},
+    {"type": "interface", "name": "boundary"},
+    {"type": "diffuse_light", "name": "light", "emit": 40}
+  ],
+  "surfaces": [
+    {"type": "quad", "size": 6, "transform": [{"rotate": [-90, 1, 0, 0]}, {"translate": [0, -1, 0]}], "material": "white", "outside": "haze"},
+    {"type": "quad", "size": 0.2, "transform": [{"rotate": [90, 1, 0, 0]}, {"translate": [0.6, 0.9, 0]}], "material": "light", "outside": "haze"},
+    {"type": "sphere", "radius": 0.06, "transform": {"translate": [-0.8, 0.3, 0.4]}, "material": "light", "outside": "haze"},
+    {"type": "sphere", "radius": 1, "transform": [{"scale": [0.05, 0.1, 0.05]}, {"translate": [0.1, 0.6, 0.3]}], "material": "light", "outside": "haze"},
+    {"type": "mesh", "filename": "meshes/icosahedron.obj", "transform": [{"scale": 0.08}, {"translate": [1, 0.1, 0.6]}], "material": "light", "outside": "haze"},
+    {"type": "sphere", "radius": 0.4, "transform": {"translate": [-0.4, -0.5, 0]}, "material": "boundary", "inside": "cloud", "outside": "haze"},
+    {"type": "sphere", "radius": 0.4, "transform": {"translate": [0.6, -0.5, 0]}, "material": "mirror", "outside": "haze"}
   ]
 })";
 

@@ -104,6 +104,11 @@ constexpr unsigned kAllChannels = FILM_ALBEDO | FILM_NORMAL | FILM_DEPTH;
 
 TEST(LanesTest, Surfaces) { expect_one_image(compile(kSurfacesScene, kAllChannels, 5), {1}); }
 TEST(LanesTest, Media) { expect_one_image(compile(kMediaScene, FILM_DEPTH), {1, 16}); }
+TEST(LanesTest, ThinFog) {
+  const CompiledScene scene = compile(kThinFogScene, 0);
+  ASSERT_TRUE(scene.features.thin_media);
+  expect_one_image(scene, {1});
+}
 TEST(LanesTest, Fluorescence) { expect_one_image(compile(kFluorescenceScene, FILM_FLUORESCENCE), {1}); }
 TEST(LanesTest, Rgb) { expect_one_image(compile(kRgbScene, kAllChannels), {1}); }
 

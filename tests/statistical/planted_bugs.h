@@ -67,7 +67,7 @@ inline constexpr PlantedBug kPlantedBugs[] = {
      "(out ? point->medium_inside : point->medium_outside)"},
     {"shadow_ray_keeps_its_medium", "fog_parity", "shadow.cl", "ray->medium = walking ? (out ? point.medium_outside : point.medium_inside) : ray->medium;", ""},
 
-    {"equiangular_density_forgotten", "airlight_sphere", "flight.cl", "scattering / (scattering + searching)", "real(1.0f)"},
+    {"equiangular_density_forgotten", "ball_of_fog_parity", "flight.cl", "scattering / (scattering + searching)", "real(1.0f)"},
     {"equiangular_jacobian_lost", "airlight_sphere", "equiangular.cl", "e->height / (e->angle * fma(e->height, e->height, along * along))",
      "real(1.0f) / (e->angle * e->height)"},
     {"lamp_along_the_flight_is_not_that_at_its_end", "lamps_in_fog_parity", "airlight.cl", "in_medium & a->chosen : no_lanes()",
