@@ -53,9 +53,13 @@ STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, In
   hit.u = real(0.0f);
   hit.v = real(0.0f);
   const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
+  // Only where surfaces let light through are shadow rays asked for what they meet.
+  const ulong aside = SCENE_HAS_QUADS && SCENE_HAS_INTERFACES ? quads_aside(view, o, d, tmax, active) : 0ul;
   if (SCENE_HAS_QUADS)
-    for (int i = 0; i < quads; i++)
+    for (int i = 0; i < quads; i++) {
+      if ((aside >> i) & 1ul) continue;
       keep_nearer(&hit, exclude == integer(i) ? real(0.0f) : meet_quad(view->quads + i, o, d), i);
+    }
   if (SCENE_HAS_SPHERES)
     for (int i = quads; i < spheres; i++)
       keep_nearer(&hit, meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i)), i);
@@ -89,8 +93,10 @@ STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real t
 STOKES_FN Mask occluded(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
   const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
   Mask open = active;
+  const ulong aside = SCENE_HAS_QUADS ? quads_aside(view, o, d, tmax, active) : 0ul;
   if (SCENE_HAS_QUADS)
     for (int i = 0; i < quads; i++) {
+      if ((aside >> i) & 1ul) continue;
       const Real t = meet_quad(view->quads + i, o, d);
       open = open & ((exclude == integer(i)) | !((t > real(0.0f)) & (t < tmax)));
     }

@@ -342,8 +342,11 @@ typedef struct {
   float spectral_begin, spectral_end;  // nm
   uint film_channels;     // FILM_* in use
   uint film_stride;       // longs per pixel
+  // Around all primitives. Quads that lie in its faces stand between no two points within it; bit i: quad i does not lie in one.
+  Vec3 box_low, box_high;
+  uint free_quads[2];
 } Scene;
-LAYOUT_CHECK(Scene, 168);
+LAYOUT_CHECK(Scene, 200);
 
 // ---- Film ------------------------------------------------------------------------------------------------------
 // Per pixel `film_stride` 64-bit words. Sums are integers in units of a quantum, so that they do not depend on the order:

@@ -191,5 +191,15 @@ TEST(CompiledScene, KnowsItsBounds) {
   EXPECT_NEAR(s.header.scene_radius, std::sqrt(11.0), 1e-5);
 }
 
+TEST(CompiledScene, KnowsItsWalls) {
+  const CompiledScene s = compile_scene(scene_of({quad(lambertian(), translate({0, 0, -1}), 2, 2), quad(lambertian(), translate({0, 0, -0.5}), 2, 2),
+                                                  sphere(lambertian(), translate({0, 0, -0.5}), 0.5)}));
+  EXPECT_EQ(s.header.box_low.z, -1);
+  EXPECT_EQ(s.header.box_high.z, 0);
+  // The first quad lies in the box's lower face, the second within the box.
+  EXPECT_EQ(s.header.free_quads[0], 2u);
+  EXPECT_EQ(s.header.free_quads[1], 0u);
+}
+
 }  // namespace
 }  // namespace stokes::test
