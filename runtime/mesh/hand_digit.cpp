@@ -57,9 +57,9 @@ HandDigit::HandDigit(const Digit& digit, const ThumbShape& f)
                {L0, rm * 1.03, rm * 0.96, rm * 0.98},
                {L0 + L1 * 0.50, r1 * 0.95, r1 * 0.90, r1 * 1.08},
                {L0 + L1, ri * 1.02, ri * 0.92, ri * 0.92},
-               {L0 + L1 + L2 * 0.36, ri * 1.08, ri * 0.82, ri * 1.00},
-               {L0 + L1 + L2 * 0.62, rt * 1.16, rt * 0.80, rt * 1.10},
-               {L0 + L1 + L2 - rt, rt * 0.98, rt * 0.66, rt * 0.88}};
+               {L0 + L1 + L2 * 0.36, ri * 1.08, ri * 0.79, ri * 1.00},
+               {L0 + L1 + L2 * 0.62, rt * 1.16, rt * 0.90, rt * 1.10},
+               {L0 + L1 + L2 - rt, rt * 0.98, rt * 0.72, rt * 0.90}};
 }
 
 Section HandDigit::section(double y) const {

@@ -52,7 +52,7 @@ HandPalm::HandPalm(const HandSkeleton& skeleton, double arch) : skeleton_(skelet
   crease({{-17, -7}, {0, -9}, {20, -5}}, 0.20, 1.6);                        // wrist, proximal
   for (const Digit& d : skeleton_.fingers) {                                // extensor tendons
     const Vec3d k = d.bones[0].origin;
-    lines_.push_back({Curve2({{k.x * 0.22, 8}, {k.x, k.y - 4}}, 1), -0.6, 4.5, 0, 0.6, 1, false});
+    lines_.push_back({Curve2({{k.x * 0.22, 8}, {k.x, k.y + 2}}, 1), -0.6, 4.5, 0, 0.6, 0.8, false});
   }
   for (const std::vector<std::array<double, 2>>& vein : {std::vector<std::array<double, 2>>{{20, 10}, {17, 32}, {11, 48}, {11, 64}, {16, 80}},
                                                          {{-18, 8}, {-17, 30}, {-21, 48}, {-21, 70}},
@@ -82,12 +82,13 @@ double HandPalm::flesh(Vec3d p) const {
 double HandPalm::eminences(double d, Vec3d p) const {
   Vec3d row[4];
   for (int f = 0; f < 4; f++) row[f] = skeleton_.fingers[f].bones[0].origin + Vec3d{0, -5, 5.0};
-  const double pads[3] = {9.4, 9.2, 8.8};
-  for (int f = 0; f < 3; f++) d = smooth_min(d, cone_between(p, row[f], row[f + 1], pads[f], pads[f] - 0.3), 6);
+  row[3].x += 2.5;
+  const double pads[3] = {9.2, 9.0, 8.4};
+  for (int f = 0; f < 3; f++) d = smooth_min(d, cone_between(p, row[f], row[f + 1], pads[f], pads[f] - 0.3), 9);
   // Hypothenar: from the pisiform along the little finger's rim.
   const Vec3d rim{-22, 40, 6.5 + 0.5 * arch_};
   d = smooth_min(d, cone_between(p, {-16.5, 12, 5}, rim, 12.4, 12.6), 12);
-  d = smooth_min(d, cone_between(p, rim, skeleton_.fingers[3].bones[0].origin + Vec3d{2.5, -6, 3}, 12.4, 10.4), 12);
+  d = smooth_min(d, cone_between(p, rim, skeleton_.fingers[3].bones[0].origin + Vec3d{4, -9, 3}, 12.4, 11), 12);
   // Thenar: the belly along the thumb's metacarpal, on its palm side.
   const Bone& m = skeleton_.thumb.bones[0];
   d = smooth_min(d, ellipsoid(m.local(p), {-5.5, m.length * 0.42, 7}, {14.5, m.length * 0.62, 14.5}), 9);

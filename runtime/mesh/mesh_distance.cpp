@@ -90,7 +90,7 @@ MeshDistance::MeshDistance(const MeshData& mesh) : state_(std::make_unique<State
 
 MeshDistance::~MeshDistance() = default;
 
-double MeshDistance::operator()(Vec3d p, Vec3d* nearest) const {
+double MeshDistance::operator()(Vec3d p, Vec3d* nearest, std::uint32_t* triangle) const {
   Query q{state_.get(), p};
   RTCPointQuery query{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0, 1e30f};
   RTCPointQueryContext context;
@@ -112,9 +112,27 @@ double MeshDistance::operator()(Vec3d p, Vec3d* nearest) const {
   Feature f;
   const Vec3d c = nearest_on_triangle(p, state_->positions[t[0]], state_->positions[t[1]], state_->positions[t[2]], f);
   if (nearest) *nearest = c;
+  if (triangle) *triangle = q.triangle;
   const int i = static_cast<int>(f);
   const Vec3d n = i < 3 ? state_->vertex_normals[t[i]] : i < 6 ? state_->edge_normals[q.triangle][i - 3] : state_->face_normals[q.triangle];
   return dot(p - c, n) < 0 ? -q.best : q.best;
+}
+
+MeshPoint MeshDistance::nearest(Vec3d p) const {
+  MeshPoint found;
+  Vec3d c;
+  (*this)(p, &c, &found.triangle);
+  found.weights = weights(found.triangle, c);
+  return found;
+}
+
+std::array<double, 3> MeshDistance::weights(std::uint32_t triangle, Vec3d p) const {
+  const auto& t = state_->triangles[triangle];
+  const Vec3d v[3] = {state_->positions[t[0]], state_->positions[t[1]], state_->positions[t[2]]}, n = cross(v[1] - v[0], v[2] - v[0]);
+  const double area = dot(n, n);
+  std::array<double, 3> w = {1, 0, 0};
+  for (int i = 0; i < 3 && area > 0; i++) w[i] = dot(n, cross(v[(i + 2) % 3] - v[(i + 1) % 3], p - v[(i + 1) % 3])) / area;
+  return w;
 }
 
 }  // namespace stokes

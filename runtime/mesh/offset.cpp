@@ -67,6 +67,26 @@ MeshData shift_faces(const MeshData& mesh, double d) {
   return out;
 }
 
+// Masks and uvs of the nearest points of the parent.
+void inherit(MeshData& shell, const MeshData& parent, const MeshDistance& distance) {
+  for (const auto& mask : parent.masks) shell.masks.emplace_back(mask.first, std::vector<float>());
+  if (parent.masks.empty() && parent.uvs.empty()) return;
+  for (const Vec3d& p : shell.positions) {
+    const MeshPoint at = distance.nearest(p);
+    const auto& t = parent.triangles[at.triangle];
+    for (std::size_t m = 0; m < parent.masks.size(); m++) {
+      double value = 0;
+      for (int i = 0; i < 3; i++) value += at.weights[i] * parent.masks[m].second[t[i]];
+      shell.masks[m].second.push_back(static_cast<float>(std::clamp(value, 0.0, 1.0)));
+    }
+    if (parent.uvs.empty()) continue;
+    std::array<double, 2> uv = {0, 0};
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < 2; c++) uv[c] += at.weights[i] * parent.uvs[t[i]][c];
+    shell.uvs.push_back(uv);
+  }
+}
+
 }  // namespace
 
 MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipped) {
@@ -104,7 +124,10 @@ MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
     ShellFaults level_faults = shell_faults(level, distance, d);
     MeshData mended = level;
     if (const ShellFaults left = repair_shell(mended, distance, d, true); worse(level_faults, left)) level = std::move(mended), level_faults = left;
-    if (worse(faults, level_faults)) out = std::move(level);
+    if (worse(faults, level_faults)) {
+      out = std::move(level);
+      inherit(out, mesh, distance);
+    }
   }
   if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
   out.normals = vertex_normals(out);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "mesh/mesh_distance.h"
 #include "mesh/offset.h"
 
 namespace stokes {
@@ -81,14 +82,54 @@ std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_wo
   return flipped;
 }
 
+namespace {
+
+// The uvs of a shell's corners from the nearest points of its parent. A corner that falls onto another chart than the face's middle takes
+// what the middle's triangle has there when it is continued in its plane, so that no face is smeared over a seam.
+void inherit_uvs(RawMesh& shell, const MeshData& moved, const RawMesh& parent, const MeshData& world, bool mirrored) {
+  constexpr double kOtherChart = 0.1;  // further apart in uv than any face of a sensible map is wide
+  const MeshDistance distance(world);
+  const auto uv_at = [&](std::uint32_t f, const std::array<double, 3>& weights) {
+    std::array<double, 2> uv = {0, 0};
+    for (int i = 0; i < 3; i++) {
+      const int index = parent.faces[f].corners[mirrored && i > 0 ? 3 - i : i].uv;
+      for (int c = 0; c < 2 && index >= 0; c++) uv[c] += weights[i] * parent.uvs[index][c];
+    }
+    return uv;
+  };
+  for (std::size_t f = 0; f < shell.faces.size(); f++) {
+    const auto& t = moved.triangles[f];
+    const Vec3d middle = (moved.positions[t[0]] + moved.positions[t[1]] + moved.positions[t[2]]) / 3;
+    const std::uint32_t home = distance.nearest(middle).triangle;
+    for (int i = 0; i < 3; i++) {
+      const Vec3d p = moved.positions[t[i]];
+      const MeshPoint at = distance.nearest(p);
+      const std::array<double, 2> near = uv_at(at.triangle, at.weights), own = uv_at(home, distance.weights(home, p));
+      const bool seam = std::hypot(near[0] - own[0], near[1] - own[1]) > kOtherChart;
+      shell.faces[f].corners[i].uv = static_cast<int>(shell.uvs.size());
+      shell.uvs.push_back(seam ? own : near);
+    }
+  }
+}
+
+}  // namespace
+
 RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world) {
-  MeshData moved = offset_by_distance_field(positions_in_world(mesh, to_world), distance);
+  MeshData world = positions_in_world(mesh, to_world);
+  world.masks = mesh.masks;
+  MeshData moved = offset_by_distance_field(world, distance);
+  std::vector<Vec3d> places = moved.positions;
   const Affine to_local = to_world.inverse();
   for (Vec3d& p : moved.positions) p = to_local.point(p);
   for (Vec3d& n : moved.normals) n = normalize(to_local.normal(n));
   if (to_world.determinant() < 0)
     for (auto& triangle : moved.triangles) std::swap(triangle[1], triangle[2]);
-  return raw_mesh_of(moved);
+  RawMesh shell = raw_mesh_of(moved);
+  if (!mesh.uvs.empty()) {
+    moved.positions = std::move(places);
+    inherit_uvs(shell, moved, mesh, world, to_world.determinant() < 0);
+  }
+  return shell;
 }
 
 MeshData extract_material(const RawMesh& mesh, int material) {

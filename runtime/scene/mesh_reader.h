@@ -36,7 +36,7 @@ std::size_t drop_degenerate_faces(RawMesh& mesh);
 /// the adjacent faces. Returns how many faces turned over.
 std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_world);
 
-/// The surface at signed `distance` (measured after `to_world`) from a closed mesh; materials, uvs and masks are lost. Throws
+/// The surface at signed `distance` (measured after `to_world`) from a closed mesh, with the masks and uvs of the nearest points. Throws
 /// std::runtime_error when the mesh is not closed or nothing is left.
 RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world);
 

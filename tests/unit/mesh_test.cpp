@@ -8,6 +8,7 @@
 #include "mesh/isosurface.h"
 #include "mesh/mesh_distance.h"
 #include "mesh/offset.h"
+#include "mesh/self_intersection.h"
 #include "mesh/shell_repair.h"
 
 namespace stokes {
@@ -98,6 +99,32 @@ TEST(Offset, ThinShellsOfTheHead) {
     EXPECT_EQ(flipped, 0u) << d;
     EXPECT_LE(off, shell.triangles.size() / 30) << d;  // at 1.5 mm it is 1 in 400; here the creases are a few faces wide
   }
+}
+
+// Outside, the webs between the fingers fold the old connectivity: the level is cut anew, with the masks of the nearest points.
+TEST(Offset, ThickShellsOfTheHand) {
+  MeshData hand = generate_mesh("hand", {3, "", {}});
+  hand.masks.emplace_back("height", std::vector<float>());
+  for (const Vec3d& p : hand.positions) hand.masks[0].second.push_back(static_cast<float>((p.y + 50) / 300));
+  const MeshDistance distance(hand);
+  for (const double d : {-3.0, 2.0}) {
+    const MeshData shell = offset_by_distance_field(hand, d);
+    EXPECT_TRUE(mesh_topology(shell).watertight()) << d;
+    const ShellFaults faults = shell_faults(shell, distance, d);
+    EXPECT_LE(faults.flipped, shell.triangles.size() / 2000) << d;  // in slivers thinner than a face is bent
+    EXPECT_EQ(faults.crossed, 0u) << d;
+    EXPECT_EQ(faults.off_vertices, 0u) << d;
+    ASSERT_EQ(shell.masks.at(0).second.size(), shell.positions.size()) << d;
+    for (std::size_t i = 0; i < shell.positions.size(); i++)
+      EXPECT_NEAR(shell.masks[0].second[i] * 300 - 50, shell.positions[i].y, 2 * std::abs(d)) << d;
+  }
+}
+
+TEST(SelfIntersection, NoticesAVertexPulledThroughTheOtherSide) {
+  MeshData m = ball(1, 0.2);
+  EXPECT_TRUE(self_intersections(m).empty());
+  m.positions[7] = m.positions[7] * -1.2;
+  EXPECT_FALSE(self_intersections(m).empty());
 }
 
 TEST(ShellRepair, NoticesAndMendsAFlippedFace) {
