@@ -72,7 +72,6 @@ inline constexpr PlantedBug kPlantedBugs[] = {
      "real(1.0f) / (e->angle * e->height)"},
     {"lamp_along_the_flight_is_not_that_at_its_end", "lamps_in_fog_parity", "airlight.cl", "in_medium & a->chosen : no_lanes()",
      "in_medium & a->sought : no_lanes()"},
-    {"equiangular_beyond_the_surface", "airlight_before_a_wall", "flight.cl", "f.at_surface ? f.hit.t : real(STOKES_FAR));", "real(STOKES_FAR));"},
     {"densities_of_heroes_before_the_flight_forgotten", "airlight_chromatic", "flight.cl", "distance) * density_sum(&a->before)", "distance)"},
 
     // ---- Fluorescence --------------------------------------------------------------------------------------------
