@@ -123,6 +123,15 @@ void read_blend(ReadContext& context, const JsonObject& o, MaterialDescription& 
   set_amount(m, amount ? read_amount(context, *amount) : AmountSource{0.5, nullptr});
 }
 
+// darts reads this index as a texture; only a constant one can be used here.
+double read_plain_ior(const JsonObject& o) {
+  const auto node = o.find("ior");
+  if (!node) return 1.5;
+  if (node->is_number() || type_of(*node, "an index of refraction") != "constant") return node->number(kPositive);
+  const JsonObject constant(*node, "a constant", {"type", "value", "color"});
+  return constant.require(constant.has("color") ? "color" : "value").number(kPositive);
+}
+
 // darts' older spelling of a blend whose amount is a fresnel texture.
 void read_fresnel_blend(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   m.kind = MaterialKind::Blend;
@@ -130,7 +139,7 @@ void read_fresnel_blend(ReadContext& context, const JsonObject& o, MaterialDescr
   m.b = read_material(context, o.require("refl"));
   auto fresnel = std::make_shared<TextureDescription>();
   fresnel->kind = TextureKind::Fresnel;
-  fresnel->parameter = o.number("ior", 1.5, kPositive);
+  fresnel->parameter = read_plain_ior(o);
   fresnel->pointer = o.node().pointer();
   m.amount_texture = fresnel;
 }

@@ -25,6 +25,8 @@ SceneDescription read_scene_text(const std::string& text, const std::string& fil
   scene.directory = directory;
   ReadContext context{scene};
   const JsonNode root(source);
+  if (root.is_object() && root.json().contains("tests") && !root.json().contains("camera"))
+    root.child("tests").fail_at_key("a file of tests for darts' own program, not a scene: there is nothing to render");
   const JsonObject o(root, "a scene",
                      {"camera", "sampler", "integrator", "background", "accelerator", "spectra", "media", "materials", "surfaces", "film",
                       "scene unit", "$schema"});

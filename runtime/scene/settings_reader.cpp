@@ -35,10 +35,11 @@ std::optional<IntegratorKind> integrator_kind(const std::string& type) {
   std::string word, last;
   bool volumetric = false, named = false;
   while (words >> word) {
-    if (!last.empty()) return std::nullopt;  // the estimator is the last word
-    if (word == "path" || word == "tracer" || word == "fluorescent" || word == "volumetric") {
+    if (!last.empty()) return std::nullopt;                       // the estimator is the last word
+    const bool media = word == "volumetric" || word == "volume";  // darts' exporter says "volume path tracer mis"
+    if (word == "path" || word == "tracer" || word == "fluorescent" || media) {
       named = true;
-      volumetric |= word == "volumetric";
+      volumetric |= media;
     } else {
       last = word;
     }

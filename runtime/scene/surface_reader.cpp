@@ -202,7 +202,8 @@ void read_children(ReadContext& context, const JsonNode& list, const Affine& par
 }
 
 void read_group(ReadContext& context, const JsonNode& node, const Affine& parent) {
-  const JsonObject o(node, "a group", {"type", "name", "transform", "children", "surfaces"});
+  // The last two steer how darts divides space.
+  const JsonObject o(node, "a group", {"type", "name", "transform", "children", "surfaces", "split method", "max leaf size"});
   if (o.has("children") && o.has("surfaces")) o.require("surfaces").fail_at_key("the group already has \"children\"");
   const auto transform = o.find("transform");
   const JsonNode children = o.has("surfaces") ? o.require("surfaces") : o.require("children");

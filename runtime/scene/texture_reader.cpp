@@ -141,7 +141,8 @@ Affine read_lookup(const JsonObject& o) {
   if (direct) return read_transform(*direct).inverse();
   if (!mapping) return {};
   const JsonObject m(*mapping, "a texture mapping", {"type", "transform"});
-  if (const std::string type = m.string("type", "transform"); type != "transform")
+  // darts' first scenes call it "identity", as pbrt does: the point itself, by the transform.
+  if (const std::string type = m.string("type", "transform"); type != "transform" && type != "identity")
     m.require("type").fail("the only mapping is \"transform\", not \"" + type + "\"");
   const auto transform = m.find("transform");
   return transform ? read_transform(*transform).inverse() : Affine{};

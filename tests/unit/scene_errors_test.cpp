@@ -26,6 +26,8 @@ const char* kDye = R"("absorption": 0.5, "emission": {"type": "gaussian", "mean"
 const BadScene kBadScenes[] = {
     // Top level, camera, sampler, integrator, background, film.
     {"top_level_key", R"({"camera": {}, "surfacs": []})", "/surfacs: unknown key in a scene; did you mean \"surfaces\"?"},
+    {"tests_of_darts", R"({"type": "tests", "tests": []})",
+     "/tests: a file of tests for darts' own program, not a scene: there is nothing to render"},
     {"no_camera", "{}", "a scene needs \"camera\""},
     {"camera_is_number", R"({"camera": 1})", "/camera: expected a camera, not a number"},
     {"camera_type", camera(R"("type": "ortographic")"),

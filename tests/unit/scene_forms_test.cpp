@@ -96,6 +96,14 @@ TEST(SceneForms, GroupsNestTransforms) {
   EXPECT_EQ(s.surfaces[1].kind, SurfaceKind::Quad);
 }
 
+TEST(SceneForms, AnAccelerationStructureIsAGroup) {
+  const SceneDescription s =
+      parse(with(R"("surfaces": [{"type": "bbh", "split_method": "sah", "max_leaf_size": 4, "transform": {"scale": 3},
+    "children": [{"type": "sphere", "material": {"type": "interface"}, "transform": {"translate": [0, 1, 0]}}]}])"));
+  ASSERT_EQ(s.surfaces.size(), 1u);
+  expect_near(s.surfaces[0].transform.point({}), {0, 3, 0});
+}
+
 TEST(SceneForms, IntegratorNames) {
   const auto kind = [](const std::string& name) { return parse(with("\"integrator\": {\"type\": \"" + name + "\"}")).integrator.kind; };
   for (const char* name :
@@ -103,7 +111,8 @@ TEST(SceneForms, IntegratorNames) {
     EXPECT_EQ(kind(name), IntegratorKind::Mats) << name;
   for (const char* name : {"path tracer nee", "path_tracer_nee", "path tracer volumetric nee", "path_tracer_volumetric_nee"})
     EXPECT_EQ(kind(name), IntegratorKind::Nee) << name;
-  for (const char* name : {"path tracer mis", "path tracer volumetric mis", "fluorescent mis", "path_tracer_mixture", "path tracer"})
+  for (const char* name :
+       {"path tracer mis", "path tracer volumetric mis", "volume path tracer mis", "fluorescent mis", "path_tracer_mixture", "path tracer"})
     EXPECT_EQ(kind(name), IntegratorKind::Mis) << name;
   EXPECT_EQ(kind("normals"), IntegratorKind::Normals);
   EXPECT_EQ(kind("ao"), IntegratorKind::Ao);
@@ -287,6 +296,9 @@ TEST(SceneForms, Blends) {
   EXPECT_EQ(old.a->kind, MaterialKind::Lambertian);
   EXPECT_EQ(old.b->kind, MaterialKind::Metal);
   EXPECT_EQ(old.amount_texture->parameter, 1.2);
+  const MaterialDescription constant = material(
+      R"({"type": "fresnel_blend", "ior": {"type": "constant", "color": 1.4}, "refr": {"type": "lambertian"}, "refl": {"type": "metal"}})");
+  EXPECT_EQ(constant.amount_texture->parameter, 1.4);
 }
 
 TEST(SceneForms, PaintedRegions) {
@@ -324,7 +336,8 @@ TEST(SceneForms, Textures) {
   EXPECT_EQ(wire->b.spectrum->value, 0.1);
   // Lookup transforms map world to texture space; the description keeps texture to world.
   for (const char* key :
-       {R"("mapping3d": {"type": "transform", "transform": [{"scale": 2}]})", R"("xform": {"scale": 2})", R"("transform": {"scale": 2})"})
+       {R"("mapping3d": {"type": "transform", "transform": [{"scale": 2}]})", R"("mapping": {"transform": {"scale": 2}})",
+        R"("mapping3d": {"type": "identity", "transform": [{"scale": 2}]})", R"("xform": {"scale": 2})", R"("transform": {"scale": 2})"})
     expect_near(texture(std::string(R"({"type": "marble", )") + key + "}")->transform.point({1, 1, 1}), {0.5, 0.5, 0.5});
 }
 
