@@ -126,7 +126,7 @@ const std::vector<std::string>& skin_keys() {
 void read_skin(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   const std::string& pointer = o.node().pointer();
   const SkinComposition composition{.melanosomes = o.number("melanosome fraction", 0.25, kUnitInterval),
-                                    .blood = o.number("blood fraction", 0.002, kUnitInterval),
+                                    .blood = o.number("blood fraction", 0.01, kUnitInterval),
                                     .saturation = o.number("oxygenation", 0.75, kUnitInterval),
                                     .g = o.number("g", 0.8, {0, 0.99})};
   auto skin = std::make_shared<SkinDescription>();

@@ -20,7 +20,7 @@ double skin_reduced_scattering(double lambda);
 /// What the skin presets ask for. Volume fractions are in [0, 1].
 struct SkinComposition {
   double melanosomes = 0.02;  ///< of the epidermis: 0.013-0.063 light, 0.11-0.16 moderate, 0.18-0.43 dark skin
-  double blood = 0.002;       ///< of the dermis; 0.002 is the average over its depth in Jacques 1998
+  double blood = 0.01;        ///< of the dermis: 0.002 at rest to 0.07 flushed
   double saturation = 0.75;   ///< oxygenated part of the haemoglobin
   double g = 0.85;            ///< mean cosine of the scattering angle, 0.8 to 0.9
 };
