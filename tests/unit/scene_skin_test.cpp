@@ -61,15 +61,14 @@ TEST(SceneSkin, SphereShrinksInWorldSpace) {
 }
 
 TEST(SceneSkin, MeshGetsAParallelOne) {
-  const SceneDescription scene = parse(skin_scene(R"({"type": "mesh", "generator": "hand", "resolution": 6, "material": "s"})",
+  const SceneDescription scene = parse(skin_scene(R"({"type": "mesh", "generator": "hand", "resolution": 4, "material": "s"})",
                                                   R"(, "epidermis thickness": 0.5)", R"("scene unit": "m", )"));
   ASSERT_EQ(scene.surfaces.size(), 2u);
   MeshData outer = *scene.surfaces[0].mesh;
   const MeshDistance distance(outer);
   double worst = 0;
   for (const Vec3d& p : scene.surfaces[1].mesh->positions) worst = std::max(worst, std::abs(distance(p) / -0.0005 - 1));
-  EXPECT_LT(worst, 0.3);
-  EXPECT_NEAR(distance(scene.surfaces[1].mesh->positions[0]), -0.0005, 0.05 * 0.0005);
+  EXPECT_LT(worst, 0.05);
 }
 
 // Painted skin is skin under paint: the layers lie below the blend.
