@@ -28,11 +28,12 @@ STOKES_FN void collect_airlight(const SceneView* view, PathState* path, const Ai
     }
   }
   const Real event = (SCENE_HAS_CHROMATIC_MEDIA ? real(1.0f) : clearest) * exp_real(-clearest * distance);
-  const Real share = airlight_share(a, distance, event * density_sum(t));
+  const Real densities = density_sum(t), share = airlight_share(a, distance, event * densities);
 
   const SurfacePoint nowhere = surface_point_none();
   const Real3 place = madd3(path->origin, path->direction, distance);
-  const Mask useful = a->sought & (share > real(0.0f));
+  // What comes through all but opaque ways, or from where squared distances overflow, is nothing; its weights would not be finite.
+  const Mask useful = a->sought & (share > real(0.0f)) & (densities > real(1e-30f)) & (distance < real(1e15f));
   const Vertex v = vertex_make(view, path, &nowhere, integer(0), place, useful, no_lanes(), no_lanes());
   Excitation none;
   none.lanes = no_lanes();
