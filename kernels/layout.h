@@ -32,7 +32,7 @@ using uint = std::uint32_t;
 // i = floor(x), lambda = lerp(knot[i], knot[i+1], x - i), and 1/pdf(lambda) = KNOTS * (knot[i+1] - knot[i]), exactly.
 #define STOKES_CAMERA_KNOTS 1024
 // A cumulative table has four floats for each of the STOKES_SPECTRUM_CELLS cells: the cumulative probability at the cell's two ends, and the
-// density there. Behind them stand STOKES_CDF_GUIDES cells, that into which i / STOKES_CDF_GUIDES falls for every i: where to look first.
+// density there, per nm. Behind them stand STOKES_CDF_GUIDES cells, that into which i / STOKES_CDF_GUIDES falls for every i: where to look first.
 #define STOKES_CDF_GUIDES 2048
 #define STOKES_CDF_STRIDE (4 * STOKES_SPECTRUM_CELLS + STOKES_CDF_GUIDES)
 
@@ -259,7 +259,8 @@ typedef struct {
 } Dye;
 LAYOUT_CHECK(Dye, 32);
 
-// A spectrum as a probability density: pdf(l) = table(l) / integral, cumulative table at cdf * STOKES_CDF_STRIDE.
+// A spectrum as a probability density: pdf(l) = table(l) / integral, cumulative table at cdf * STOKES_CDF_STRIDE, where cdf is
+// the distribution's own index.
 typedef struct {
   uint spectrum;
   uint cdf;

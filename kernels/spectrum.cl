@@ -50,9 +50,7 @@ STOKES_FN Real distribution_pdf(const SceneView* view, Int distribution, Real la
 /// The cell is found in the cumulative table, the place within it by inverting the linear density. The result is kept inside
 /// its cell, so that spectrum_eval1 reads the same cell there.
 STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real u, Mask mask, Real* pdf) {
-  const __global uint* ids = (const __global uint*)view->distributions;
-  const __global float* words = (const __global float*)view->distributions;
-  const Int first = gather_int(ids, distribution * 4 + 1) * (STOKES_CDF_STRIDE / 4);
+  const Int first = distribution * (STOKES_CDF_STRIDE / 4);
   // The last c in [0, 499] that begins at or below u: mostly the guide's cell, or else one of those up to the next guide's.
   const Int guides = 4 * (first + STOKES_SPECTRUM_CELLS);
   const Int guide = min_int(to_int(u * (float)STOKES_CDF_GUIDES), integer(STOKES_CDF_GUIDES - 1));
@@ -80,7 +78,7 @@ STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real
   const Real start = to_real(c) + real(STOKES_LAMBDA_MIN);
   const Real end = as_real(as_integer(start + real(1.0f)) - 1);
   const Real lambda = min_real(start + f, end);
-  *pdf = fma(lambda - start, b - a, a) / gather_real(words, distribution * 4 + 2);
+  *pdf = fma(lambda - start, b - a, a);
   return lambda;
 }
 

@@ -9,10 +9,11 @@
 
 namespace stokes {
 
-/// Appends the table of a density to `out`: STOKES_CDF_STRIDE floats. `density` has both ends of each cell, `cdf` the sums 0 ... 1.
-inline void append_cumulative_table(std::vector<float>& out, std::span<const float> density, const std::array<float, STOKES_SPECTRUM_CELLS + 1>& cdf) {
+/// Appends the table of a density to `out`: STOKES_CDF_STRIDE floats. `density` has both ends of each cell and that integral, `cdf` the sums 0 ... 1.
+inline void append_cumulative_table(std::vector<float>& out, std::span<const float> density, double integral,
+                                    const std::array<float, STOKES_SPECTRUM_CELLS + 1>& cdf) {
   for (std::size_t c = 0; c < STOKES_SPECTRUM_CELLS; c++) {
-    const float cell[] = {cdf[c], cdf[c + 1], density[2 * c], density[2 * c + 1]};
+    const float cell[] = {cdf[c], cdf[c + 1], float(density[2 * c] / integral), float(density[2 * c + 1] / integral)};
     out.insert(out.end(), std::begin(cell), std::end(cell));
   }
   std::size_t cell = 0;

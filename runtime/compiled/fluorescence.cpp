@@ -135,7 +135,7 @@ void complete_excitations(Compilation& c) {
     out.cdf = std::uint32_t(c.out.cdfs.size() / STOKES_CDF_STRIDE);
     out.integral = float(d.integral);
     out.strength = float(c.spectra.integral(pending.absorption));
-    append_cumulative_table(c.out.cdfs, table, d.cdf);
+    append_cumulative_table(c.out.cdfs, table, d.integral, d.cdf);
   }
   c.excitations.clear();
 }

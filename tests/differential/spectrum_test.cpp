@@ -47,7 +47,7 @@ CompiledScene spectra_scene() {
     }
     std::array<float, 501> cdf{};
     std::transform(sums.begin(), sums.end(), cdf.begin(), [sum](double v) { return float(v / sum); });
-    append_cumulative_table(s.cdfs, std::span(s.spectra).subspan(t * 1000, 1000), cdf);
+    append_cumulative_table(s.cdfs, std::span(s.spectra).subspan(t * 1000, 1000), sum, cdf);
     s.distributions.push_back({t, t, float(sum), 0});
   }
   s.camera_knots = camera_knots(STOKES_CAMERA_KNOTS, 0, 0, 0);
