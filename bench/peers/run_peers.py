@@ -47,9 +47,10 @@ def prepare_scene(name, roulette, folder, export_mesh):
     for surface in scene["surfaces"]:
         if "generator" in surface:
             mesh, resolution = surface.pop("generator"), str(surface.pop("resolution"))
-            path = folder / f"{mesh}_{resolution}.obj"
+            parameters = [f"{key}={value}" for key, value in surface.pop("parameters", {}).items()]
+            path = folder / ("_".join([mesh, resolution, *parameters]) + ".obj")
             if not path.exists():
-                subprocess.run([export_mesh, mesh, resolution, path], check=True)
+                subprocess.run([export_mesh, mesh, resolution, path, *parameters], check=True)
             surface["filename"] = str(path)
     path = folder / f"{name}_{roulette}.json"
     path.write_text(json.dumps(scene))

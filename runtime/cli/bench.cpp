@@ -115,6 +115,8 @@ class EmptyCaches {
 
 /// In a process of its own: measures, writes the result to `pipe`, and ends. Errors go the way of the program's other errors.
 [[noreturn]] void run_child(const BenchCase& c, const BenchOptions& o, int pipe) {
+  // Threads do not outlive fork(): at an ordinary exit, after an error, the destructors of libraries would wait for theirs for ever.
+  on_exit([](int status, void*) { std::fflush(nullptr), std::_Exit(status); }, nullptr);
   const auto result = run_case(c, o.scene_options, o.parts);
   if (!result) std::_Exit(kExitInterrupted);
   const std::string text = to_json(*result).dump();

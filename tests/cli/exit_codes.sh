@@ -32,6 +32,9 @@ expect 2 "$STOKES" render bad.json --device reference
 says err.txt '^bad\.json:4:[0-9]+: error: .*max bounces'
 [ "$(wc -l <err.txt)" -eq 1 ] || fail 'a scene error takes more than one line'
 [ -e bad.exr ] && fail 'a bad scene left an output'
+# bench measures in a process of its own, which must end after an error too.
+expect 2 timeout 60 "$STOKES" bench bad.json
+says err.txt '^bad\.json:4:[0-9]+: error: .*max bouces'
 expect 2 "$STOKES" check "$FIXTURES/small.json" bad.json
 says out.txt 'small.json: ok'
 expect 0 "$STOKES" check "$FIXTURES/small.json"
