@@ -6,21 +6,10 @@
 #include "metal.cl"
 #include "phase.cl"
 #include "phong.cl"
+#include "probe_lanes.cl"
 
 // Lobes are called by their material's number; the phase function is one more.
 #define LOBE_PHASE 100
-
-STOKES_FN Int elements(void) {
-  int ids[LANES];
-  for (int j = 0; j < LANES; j++) ids[j] = (int)get_global_id(0) * LANES + j;
-  return load_int(ids);
-}
-STOKES_FN void put(__global float* p, Int i, Real x) {
-  float values[LANES];
-  int ids[LANES];
-  store_real(x, values), store_int(i, ids);
-  for (int j = 0; j < LANES; j++) p[ids[j]] = values[j];
-}
 
 /// Value (albedo 1) and density of a lobe.
 STOKES_FN Real lobe_eval(int type, float parameter, float eta, float k, Real3 wo, Real3 wi, Real* pdf) {

@@ -2,6 +2,7 @@
 // Arrays are padded to whole groups of lanes.
 #include "camera.cl"
 #include "intersect.cl"
+#include "probe_lanes.cl"
 #include "random.cl"
 #include "sampling.cl"
 #include "spectrum.cl"
@@ -23,18 +24,6 @@
                                 reradiation_values, lights, environment, environment_cdf, camera_knots, sensor};             \
   const SceneView* view = &scene_view
 
-/// The elements of this work-item.
-STOKES_FN Int elements(void) {
-  int ids[LANES];
-  for (int j = 0; j < LANES; j++) ids[j] = (int)get_global_id(0) * LANES + j;
-  return load_int(ids);
-}
-STOKES_FN void put(__global float* p, Int i, Real x) {
-  float values[LANES];
-  int ids[LANES];
-  store_real(x, values), store_int(i, ids);
-  for (int j = 0; j < LANES; j++) p[ids[j]] = values[j];
-}
 STOKES_FN void put_int(__global int* p, Int i, Int x) {
   int values[LANES], ids[LANES];
   store_int(x, values), store_int(i, ids);

@@ -42,7 +42,7 @@ const char* const kFeatures[] = {"TRIANGLES", "SPHERES", "ELLIPSOIDS", "QUADS", 
 
 std::string build_options(const KernelVariant& v) {
   const auto define = [](const std::string& name, int value) { return " -D" + name + "=" + std::to_string(value); };
-  std::string text = "-cl-std=CL1.2 -I" STOKES_SOURCE_DIR "/kernels";
+  std::string text = "-cl-std=CL1.2 -I" STOKES_SOURCE_DIR "/kernels -I" STOKES_SOURCE_DIR "/tests/differential";
   text += define("LANES", v.lanes) + define("BVH_WIDTH", v.bvh_width) + define("WAVELENGTHS", v.wavelengths);
   text += define("SCENE_RGB", v.rgb) + define("STOKES_X86", v.x86);
   for (const char* feature : kFeatures)
