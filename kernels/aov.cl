@@ -25,38 +25,57 @@ STOKES_FN Real d65_lanes(Real lambda) {
   return fma(x - to_real(i), load_real(high) - load_real(low), load_real(low)) * D65_SCALE;
 }
 
-/// Linear sRGB of a reflectance seen under D65, from the path's camera wavelengths; exactly 1 for white.
-STOKES_FN Real3 albedo_rgb(const SceneView* view, const PathState* path, const Spectrum* albedo, Mask white) {
+/// Linear sRGB of a reflectance seen under D65, at the camera's wavelengths; exactly 1 for white.
+STOKES_FN Real3 albedo_rgb(const SceneView* view, const Spectrum* lambda, const Spectrum* inverse_pdf, const Spectrum* albedo, Mask white) {
   Real3 rgb = real3(real(0.0f), real(0.0f), real(0.0f));
   if (SCENE_RGB) {
     rgb = real3(albedo->v[0], albedo->v[1 % WAVELENGTHS], albedo->v[2 % WAVELENGTHS]);
   } else {
-    Spectrum lambda, inverse_pdf;
-    camera_wavelengths(view, path->camera_u, &lambda, &inverse_pdf);
     FOR_EACH_WAVELENGTH(k) {
-      const Real weight = albedo->v[k] * inverse_pdf.v[k] * (1.0f / (float)WAVELENGTHS) * d65_lanes(lambda.v[k]);
-      rgb = madd3(rgb, sensor_rgb(view, lambda.v[k]), weight);
+      const Real weight = albedo->v[k] * inverse_pdf->v[k] * (1.0f / (float)WAVELENGTHS) * d65_lanes(lambda->v[k]);
+      rgb = madd3(rgb, sensor_rgb(view, lambda->v[k]), weight);
     }
   }
   return select3(white, real3(real(1.0f), real(1.0f), real(1.0f)), rgb);
 }
 
-/// Notes for the film what the camera's ray met first: a surface, or a scattering in a medium.
-STOKES_FN void note_first_hit(const SceneView* view, PathState* path, const Flight* flight, const SurfacePoint* point) {
-  const Mask first = path->unseen & (flight->at_surface | flight->in_medium);
-  path->unseen = path->unseen & !path->alive;
-  if (!any(first)) return;
-  const Mask at_surface = first & flight->at_surface;
+/// Notes for the film the surface at `distance`, the first along the camera's ray.
+STOKES_FN void note_surface(const SceneView* view, PathState* path, Real distance, const SurfacePoint* point, Mask first) {
   path->alpha = first ? real(1.0f) : path->alpha;
-  if (FILM_CHANNELS & FILM_DEPTH) path->depth = first ? flight->length : path->depth;
-  if (FILM_CHANNELS & FILM_NORMAL) path->normal = select3(at_surface, point->ns, path->normal);
+  if (FILM_CHANNELS & FILM_DEPTH) path->depth = first ? distance : path->depth;
+  if (FILM_CHANNELS & FILM_NORMAL) path->normal = select3(first, point->ns, path->normal);
   if (FILM_CHANNELS & FILM_ALBEDO) {
     const Mask outside = dot3(path->direction, point->ng) < real(0.0f);
     Rng spare = path->rng;  // the channel may choose another component of a blend than the path
-    const Int material = material_resolve(view, point, neg3(path->direction), &spare, at_surface);
-    const Bsdf b = bsdf_load(view, material, point, outside, &path->throughput.lambda, at_surface);
-    const Mask white = b.specular | bsdf_is(&b, MATERIAL_DIELECTRIC) | bsdf_is(&b, MATERIAL_INTERFACE) | (first & flight->in_medium);
-    path->albedo = select3(first, albedo_rgb(view, path, &b.color, white), path->albedo);
+    const Int material = material_resolve(view, point, neg3(path->direction), &spare, first);
+    // The camera's wavelengths: a dye in the medium may have changed the path's.
+    Spectrum lambda = path->throughput.lambda, inverse_pdf = lambda;
+    if (!SCENE_RGB) camera_wavelengths(view, path->camera_u, &lambda, &inverse_pdf);
+    const Bsdf b = bsdf_load(view, material, point, outside, &lambda, first);
+    const Mask white = b.specular | bsdf_is(&b, MATERIAL_DIELECTRIC) | bsdf_is(&b, MATERIAL_INTERFACE);
+    path->albedo = select3(first, albedo_rgb(view, &lambda, &inverse_pdf, &b.color, white), path->albedo);
   }
+}
+
+/// Notes for the film the first surface along the camera's ray, which began at `origin`.
+///
+/// Depth, normal and albedo describe surfaces only: where a medium around the camera scatters the path before it meets one, the surface
+/// beyond is looked for. Such a medium is opaque without end, so alpha is 1 there.
+STOKES_FN void note_first_hit(const SceneView* view, PathState* path, const Flight* flight, const SurfacePoint* point, Real3 origin,
+                              Counters* counters) {
+  const Mask first = path->unseen & (flight->at_surface | flight->in_medium);
+  path->unseen = path->unseen & !path->alive;
+  if (!any(first)) return;
+  note_surface(view, path, flight->length, point, first & flight->at_surface);
+  const Mask scattered = first & flight->in_medium;
+  if (!SCENE_HAS_MEDIA || !any(scattered)) return;
+  path->alpha = scattered ? real(1.0f) : path->alpha;
+  if (!(FILM_CHANNELS & (FILM_DEPTH | FILM_NORMAL | FILM_ALBEDO))) return;
+  const Hit hit = closest_hit(view, origin, path->direction, real(STOKES_FAR), integer(-1), scattered);
+  count_lanes(counters, COUNTER_RAYS, scattered);
+  const Mask found = scattered & (hit.primitive >= integer(0));
+  if (!any(found)) return;
+  const SurfacePoint beyond = surface_point(view, origin, path->direction, hit, found);
+  note_surface(view, path, hit.t, &beyond, found);
 }
 #endif

@@ -98,7 +98,7 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
       collect_emission(view, &path, &point, at_surface);
       material = material_resolve(view, &point, neg3(path.direction), &path.rng, at_surface);
     }
-    note_first_hit(view, &path, &flight, &point);
+    note_first_hit(view, &path, &flight, &point, origin, counters);
     if (any(at_surface)) {
       const Int type = material_uint(view, material, 0);
       // Index-matched boundaries only change the medium; lights absorb.

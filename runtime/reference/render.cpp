@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "reference/camera.h"
+#include "reference/medium.h"
 #include "reference/reference.h"
 #include "reference/volpath.h"
 
@@ -43,6 +44,12 @@ void fill_bins(const Film& film, const CameraWavelength& camera, const PathResul
   if (bin >= 0 && bin < film.spectral_bins) bins[static_cast<std::size_t>(bin)] = path.radiance * camera.inverse_pdf / width;
 }
 
+/// Whether the camera stands in a medium that attenuates: seen without end, that is opaque.
+bool fills_the_view(const CompiledScene& scene, Wavelength w) {
+  const bool traces = scene.header.integrator != layout::INTEGRATOR_NORMALS && scene.header.integrator != layout::INTEGRATOR_AO;
+  return traces && medium_at(scene, scene.header.camera.medium, w).sigma_t > 0;
+}
+
 SampleValues render_sample(const World& world, const Film& film, std::uint32_t seed, int x, int y, int sample) {
   const layout::Scene& header = world.scene.header;
   const auto pixel = std::uint64_t(y) * header.camera.width + std::uint64_t(x);
@@ -54,7 +61,7 @@ SampleValues render_sample(const World& world, const Film& film, std::uint32_t s
   SampleValues values;
   PathResult path;
   const FirstHit first = trace_first_hit(world, ray, camera.wavelength, random);
-  values.alpha = first.found ? 1 : 0;
+  values.alpha = first.found || fills_the_view(world.scene, camera.wavelength) ? 1 : 0;
   switch (header.integrator) {
     case layout::INTEGRATOR_NORMALS: values.rgb = {std::abs(first.ns.x), std::abs(first.ns.y), std::abs(first.ns.z)}; break;
     case layout::INTEGRATOR_AO: {
