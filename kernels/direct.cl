@@ -13,8 +13,10 @@ STOKES_FN Mask seeks_light(const SceneView* view, const PathState* path, const V
   return v->active & !sealed & !v->bsdf.specular & !(bsdf_is(&v->bsdf, MATERIAL_BLACK));
 }
 
-/// Radiance of a sampled light towards the vertex, at the given wavelengths. The light is known to be seen.
-STOKES_FN Spectrum light_radiance(const SceneView* view, const LightSample* s, Real3 origin, Int exclude, const Spectrum* lambda, Mask mask) {
+/// Radiance of a sampled light towards the vertex, at the throughput's wavelengths. The light is known to be seen.
+STOKES_FN Spectrum light_radiance(const SceneView* view, const LightSample* s, Real3 origin, Int exclude, const Throughput* t, Mask mask) {
+  if (lone_lamp(view) >= 0) return t->lamp;
+  const Spectrum* lambda = &t->lambda;
   const Int emission = gather_int((const __global uint*)view->lights, s->light * LIGHT_WORDS + 2);
   const Mask near = mask & (emission != integer(-1));
   Spectrum light = spectrum_constant(real(0.0f));
@@ -64,13 +66,15 @@ STOKES_FN void collect_direct(const SceneView* view, PathState* path, const Vert
   // Directions are shared with the continued ray: the heuristic weighs solid angles, never transmittances.
   Real weight = (INTEGRATOR == INTEGRATOR_MIS ? power_heuristic(s.pdf, pdf) : real(1.0f)) / s.pdf;
   if (SCENE_HAS_THIN_MEDIA) weight = weight * share;
-  Spectrum light = light_radiance(view, &s, origin, exclude, &path->throughput.lambda, seen);
-  FOR_EACH_WAVELENGTH(k) light.v[k] *= f.v[k] * (SCENE_HAS_MEDIA ? exp_real(-depth.v[k]) : real(1.0f));
+  Spectrum light = light_radiance(view, &s, origin, exclude, &path->throughput, seen);
+  const Spectrum clarity = transmittance(&depth);
+  FOR_EACH_WAVELENGTH(k) light.v[k] *= f.v[k] * clarity.v[k];
   path_collect(path, &light, weight, seen);
 
   if (STOKES_FLUORESCENCE && any(seen & x->lanes)) {
-    Spectrum exciting = light_radiance(view, &s, origin, exclude, &x->throughput.lambda, seen & x->lanes);
-    FOR_EACH_WAVELENGTH(k) exciting.v[k] *= SCENE_HAS_MEDIA ? exp_real(-excited_depth.v[k]) : real(1.0f);
+    Spectrum exciting = light_radiance(view, &s, origin, exclude, &x->throughput, seen & x->lanes);
+    const Spectrum excited_clarity = transmittance(&excited_depth);
+    FOR_EACH_WAVELENGTH(k) exciting.v[k] *= excited_clarity.v[k];
     // The dyes re-emit over the cosine lobe, whose value is its density.
     collect_light(&x->throughput, &exciting, weight * pdf, seen & x->lanes, &path->radiance);
     if (FILM_CHANNELS & FILM_FLUORESCENCE) collect_light(&x->throughput, &exciting, weight * pdf, seen & x->lanes, &path->fluorescence);

@@ -109,6 +109,7 @@ STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeC
     out->mixture.v[k] = mask ? (stokes ? t->mixture.v[k] : mixed) : out->mixture.v[k];
     out->density.v[k] = mask ? (stokes ? t->density.v[k] : real(1.0f)) : out->density.v[k];
   }
+  throughput_see_lamp(view, out, mask);
   out->mixed = (mask & (!stokes | t->mixed)) | (!mask & out->mixed);
   out->alone = (mask & stokes & t->alone) | (!mask & out->alone);
 }
@@ -173,6 +174,7 @@ STOKES_FN void reradiation_excite(const SceneView* view, const Throughput* t, In
     out->mixture.v[k] = mask ? t->mixture.v[k] : out->mixture.v[k];
     out->density.v[k] = mask ? t->density.v[k] : out->density.v[k];
   }
+  throughput_see_lamp(view, out, mask);
   out->mixed = (mask & t->mixed) | (!mask & out->mixed);
   out->alone = (mask & t->alone) | (!mask & out->alone);
   const Mask glows = mask & (glow > real(0.0f));

@@ -171,6 +171,11 @@ STOKES_FN Int load_int(const int* p) { return STOKES_JOIN(vload, LANES)(0, p); }
 STOKES_FN Uint load_uint(const uint* p) { return STOKES_JOIN(vload, LANES)(0, p); }
 #endif
 
+/// Component j of lanes that lie in memory, in every lane.
+STOKES_FN Real spread_real(const Real* x, uint j) { return real(((const float*)x)[j]); }
+STOKES_FN Int spread_int(const Int* x, uint j) { return integer(((const int*)x)[j]); }
+STOKES_FN Uint spread_uint(const Uint* x, uint j) { return uinteger(((const uint*)x)[j]); }
+
 // ---- Gathers: lane j reads element i_j. Every lane reads, so dead lanes need a valid index too ----------------
 #define STOKES_GATHER_1(k) p[LANE(i, k)]
 // Records of two or four are loaded whole, one per lane, and turned in registers: CPUs' own gather instructions are slower.

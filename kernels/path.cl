@@ -68,7 +68,7 @@ STOKES_FN PathState path_none(void) {
   path.pdf = path.eta_scale = path.ball_radius2 = path.camera_u = path.depth = path.alpha = real(0.0f);
   path.bounces = path.ball_wait = integer(0);
   path.throughput.lambda = spectrum_constant(real(STOKES_LAMBDA_MIN));
-  path.throughput.beta = path.throughput.density = path.throughput.mixture = black;
+  path.throughput.beta = path.throughput.density = path.throughput.mixture = path.throughput.lamp = black;
   path.throughput.mixed = path.throughput.alone = no_lanes();
   path.throughput.hero = integer(0);
   path.medium.index = path.medium.flags = integer(0);
@@ -78,33 +78,78 @@ STOKES_FN PathState path_none(void) {
   return path;
 }
 
-/// Puts a new path into the masked lanes: sample `sample` of the pixel at column x, row y of the full image.
-STOKES_FN void path_start(const SceneView* view, PathState* path, Uint x, Uint y, Uint sample, uint seed, Mask fresh) {
-  Rng rng = random_start(y * view->scene->camera.width + x, sample, seed);
-  const Real px = to_real(as_int_lanes(x)) + random_next(&rng), py = to_real(as_int_lanes(y)) + random_next(&rng);
-  const Real u = random_next(&rng);
+/// A new path in every lane: sample `sample` of the pixel at column x, row y of the full image.
+STOKES_FN PathState path_start(const SceneView* view, Uint x, Uint y, Uint sample, uint seed) {
+  PathState path = path_none();
+  path.rng = random_start(y * view->scene->camera.width + x, sample, seed);
+  const Real px = to_real(as_int_lanes(x)) + random_next(&path.rng), py = to_real(as_int_lanes(y)) + random_next(&path.rng);
+  path.camera_u = random_next(&path.rng);
   Real lens_u = real(0.0f), lens_v = real(0.0f);
   if (SCENE_HAS_LENS) {
-    lens_u = random_next(&rng);
-    lens_v = random_next(&rng);
+    lens_u = random_next(&path.rng);
+    lens_v = random_next(&path.rng);
   }
-  Real3 origin, direction;
-  camera_ray(view, px, py, lens_u, lens_v, &origin, &direction);
-  Spectrum lambda, inverse_pdf;
-  camera_wavelengths(view, u, &lambda, &inverse_pdf);
-  path->origin = select3(fresh, origin, path->origin);
-  path->vertex = select3(fresh, origin, path->vertex);
-  path->direction = select3(fresh, direction, path->direction);
-  path->exclude = fresh ? integer(-1) : path->exclude;
+  camera_ray(view, px, py, lens_u, lens_v, &path.origin, &path.direction);
+  path.vertex = path.origin;
+  path.pdf = real(-1.0f);
+  path.eta_scale = real(1.0f);
+  Throughput* t = &path.throughput;
+  Spectrum inverse_pdf;
+  camera_wavelengths(view, path.camera_u, &t->lambda, &inverse_pdf);
+  t->beta = t->density = spectrum_constant(real(1.0f));
+  throughput_see_lamp(view, t, all_lanes());
+  if (SCENE_RGB && STOKES_HERO_DENSITIES) t->hero = min_int(to_int(path.camera_u * 3.0f), integer(2));
+  path.unseen = path.alive = all_lanes();
+  if (SCENE_HAS_MEDIA) medium_load(view, integer((int)view->scene->camera.medium), t, all_lanes(), &path.medium);
+  return path;
+}
+
+#define STOKES_TAKE(kind, field) path->field = mask ? spread_##kind(&from->field, j) : path->field
+
+/// Puts lane j of `from`, which has just started, into the masked lanes.
+STOKES_FN void path_take(PathState* path, const PathState* from, uint j, Mask mask) {
+  STOKES_TAKE(uint, rng.state);
+  STOKES_TAKE(uint, rng.increment);
+  STOKES_TAKE(real, origin.x);
+  STOKES_TAKE(real, origin.y);
+  STOKES_TAKE(real, origin.z);
+  STOKES_TAKE(real, direction.x);
+  STOKES_TAKE(real, direction.y);
+  STOKES_TAKE(real, direction.z);
+  STOKES_TAKE(real, vertex.x);
+  STOKES_TAKE(real, vertex.y);
+  STOKES_TAKE(real, vertex.z);
+  STOKES_TAKE(int, exclude);
+  STOKES_TAKE(real, camera_u);
+  STOKES_TAKE(real, alpha);
+  STOKES_TAKE(int, unseen);
+  FOR_EACH_WAVELENGTH(k) {
+    STOKES_TAKE(real, throughput.lambda.v[k]);
+    STOKES_TAKE(real, throughput.lamp.v[k]);
+  }
+  STOKES_TAKE(int, throughput.hero);
+  if (!SCENE_HAS_MEDIA) return;
+  STOKES_TAKE(int, medium.index);
+  STOKES_TAKE(int, medium.flags);
+  STOKES_TAKE(real, medium.mean_free_path);
+  FOR_EACH_WAVELENGTH(k) {
+    STOKES_TAKE(real, medium.albedo.v[k]);
+    if (!SCENE_HAS_CHROMATIC_MEDIA && k > 0) continue;
+    STOKES_TAKE(real, medium.sigma_t.v[k]);
+    STOKES_TAKE(real, medium.g.v[k]);
+  }
+}
+
+/// What all new paths have in common.
+STOKES_FN void path_reset(PathState* path, Mask fresh) {
+  path->alive = path->alive | fresh;
   path->pdf = fresh ? real(-1.0f) : path->pdf;
   path->bounces = fresh ? integer(0) : path->bounces;
   path->eta_scale = fresh ? real(1.0f) : path->eta_scale;
   path->ball_radius2 = fresh ? real(0.0f) : path->ball_radius2;
   path->ball_wait = fresh ? integer(0) : path->ball_wait;
-  path->camera_u = fresh ? u : path->camera_u;
   Throughput* t = &path->throughput;
   FOR_EACH_WAVELENGTH(k) {
-    t->lambda.v[k] = fresh ? lambda.v[k] : t->lambda.v[k];
     t->beta.v[k] = fresh ? real(1.0f) : t->beta.v[k];
     t->density.v[k] = fresh ? real(1.0f) : t->density.v[k];
     path->radiance.v[k] = fresh ? real(0.0f) : path->radiance.v[k];
@@ -112,18 +157,11 @@ STOKES_FN void path_start(const SceneView* view, PathState* path, Uint x, Uint y
   }
   t->mixed = t->mixed & !fresh;
   t->alone = t->alone & !fresh;
-  if (SCENE_RGB && STOKES_HERO_DENSITIES) t->hero = fresh ? min_int(to_int(u * 3.0f), integer(2)) : t->hero;
   path->fluoresced = path->fluoresced & !fresh;
-  path->unseen = path->unseen | fresh;
   const Real3 zero = real3(real(0.0f), real(0.0f), real(0.0f));
   path->albedo = select3(fresh, zero, path->albedo);
   path->normal = select3(fresh, zero, path->normal);
   path->depth = fresh ? real(0.0f) : path->depth;
-  path->alpha = fresh ? real(0.0f) : path->alpha;
-  if (SCENE_HAS_MEDIA) medium_load(view, integer((int)view->scene->camera.medium), t, fresh, &path->medium);
-  path->rng.state = fresh ? rng.state : path->rng.state;
-  path->rng.increment = fresh ? rng.increment : path->rng.increment;
-  path->alive = path->alive | fresh;
 }
 
 /// Adds light that arrives along the path, times `weight`.

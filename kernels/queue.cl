@@ -1,15 +1,18 @@
 // The paths that a work-item still has to start, and which pixel each lane works for. Knows pixels and samples, not light.
 #ifndef STOKES_QUEUE_CL
 #define STOKES_QUEUE_CL
-#include "path.cl"
+#include "boundary.cl"
 
 /// The samples [sample_begin, sample_end) of a run of pixels, pixel by pixel.
 typedef struct {
   uint pixel, pixel_end;  // of the window, row by row
   uint x, y;              // of the next path's pixel, within the full image
   uint sample;
-  // Per lane; pixel STOKES_NONE: idle.
-  uint lane_pixel[LANES], lane_x[LANES], lane_y[LANES], lane_sample[LANES];
+  // Paths are made LANES at a time, and wait here until a lane is free; `next` of `made` have gone.
+  PathState waiting;
+  uint waiting_pixel[LANES];
+  uint next, made;
+  uint lane_pixel[LANES];  // for which a lane works; STOKES_NONE: it is idle
 } PathQueue;
 
 STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
@@ -23,34 +26,36 @@ STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
   q.x = launch->crop_x + q.pixel % width;
   q.y = launch->crop_y + q.pixel / width;
   q.sample = launch->sample_begin;
-  for (int j = 0; j < LANES; j++) {
-    q.lane_pixel[j] = STOKES_NONE;
-    q.lane_x[j] = q.lane_y[j] = q.lane_sample[j] = 0u;
-  }
+  q.next = q.made = 0u;
+  for (int j = 0; j < LANES; j++) q.lane_pixel[j] = STOKES_NONE;
   return q;
 }
 
-/// Gives lane j the next path; 0 when there is none.
-STOKES_FN int queue_next(PathQueue* q, const __global Launch* launch, uint j) {
-  if (q->pixel == q->pixel_end) {
-    q->lane_pixel[j] = STOKES_NONE;
-    return 0;
-  }
-  q->lane_pixel[j] = q->pixel;
-  q->lane_x[j] = q->x;
-  q->lane_y[j] = q->y;
-  q->lane_sample[j] = q->sample;
-  q->sample++;
-  if (q->sample == launch->sample_end) {
+/// Makes the next paths; none are left when `made` is 0.
+STOKES_FN void queue_make_paths(const SceneView* view, PathQueue* q, const __global Launch* launch, Counters* counters) {
+  uint x[LANES], y[LANES], sample[LANES];
+  uint made = 0u;
+  for (int j = 0; j < LANES; j++) {
+    q->waiting_pixel[j] = q->pixel;
+    x[j] = q->x;
+    y[j] = q->y;
+    sample[j] = q->sample;
+    if (q->pixel == q->pixel_end) continue;
+    made++;
+    q->sample++;
+    if (q->sample < launch->sample_end) continue;
     q->sample = launch->sample_begin;
     q->pixel++;
     q->x++;
-    if (q->x == launch->crop_x + launch->crop_width) {
-      q->x = launch->crop_x;
-      q->y++;
-    }
+    if (q->x < launch->crop_x + launch->crop_width) continue;
+    q->x = launch->crop_x;
+    q->y++;
   }
-  return 1;
+  q->next = 0u;
+  q->made = made;
+  if (made == 0u) return;
+  q->waiting = path_start(view, load_uint(x), load_uint(y), load_uint(sample), launch->seed);
+  if (LANES > 1) path_approach(view, &q->waiting, lane_mask((1u << made) - 1u), counters);
 }
 
 /// What the film has to be told about the paths.
@@ -85,10 +90,16 @@ STOKES_FN void refill(const SceneView* view, const __global Launch* launch, Path
   for (uint ended = lane_bits(!path->alive); ended != 0u; ended &= ended - 1u) {
     const uint j = lowest_lane(ended);
     if (q->lane_pixel[j] != STOKES_NONE) film_add(view, film + (ulong)q->lane_pixel[j] * view->scene->film_stride, &samples, j);
-    if (queue_next(q, launch, j)) fresh |= 1u << j;
+    q->lane_pixel[j] = STOKES_NONE;
+    if (LANES == 1 || q->next == q->made) queue_make_paths(view, q, launch, counters);
+    if (q->made == 0u) continue;
+    q->lane_pixel[j] = q->waiting_pixel[q->next];
+    path_take(path, &q->waiting, q->next, lane_mask(1u << j));
+    q->next++;
+    fresh |= 1u << j;
   }
   if (fresh == 0u) return;
   counters->count[COUNTER_PATHS] += popcount(fresh);
-  path_start(view, path, load_uint(q->lane_x), load_uint(q->lane_y), load_uint(q->lane_sample), launch->seed, lane_mask(fresh));
+  path_reset(path, lane_mask(fresh));
 }
 #endif

@@ -26,6 +26,15 @@ STOKES_FN void add_optical_depth(const SceneView* view, Int medium, Real length,
   }
 }
 
+/// e^-depth
+STOKES_FN Spectrum transmittance(const Spectrum* depth) {
+  if (!SCENE_HAS_MEDIA) return spectrum_constant(real(1.0f));
+  if (!SCENE_HAS_CHROMATIC_MEDIA) return spectrum_constant(exp_real(-depth->v[0]));
+  Spectrum t;
+  FOR_EACH_WAVELENGTH(k) t.v[k] = exp_real(-depth->v[k]);
+  return t;
+}
+
 /// Follows the ray from boundary to boundary; returns the lanes that reach the light. *depth and, where given, *other_depth receive optical
 /// depths at the path's wavelengths and at *other_lambda.
 STOKES_FN Mask shadow_walk(const SceneView* view, ShadowRay* ray, const PathState* path, const Spectrum* other_lambda, Mask active, Counters* counters,

@@ -18,11 +18,25 @@ typedef struct {
   Spectrum lambda;   // nm, of the present leg
   Spectrum beta;     // path contribution over the hero's path density
   Spectrum density;  // path density for slot k over the hero's; read only with STOKES_HERO_DENSITIES
+  Spectrum lamp;     // radiance of the scene's only light at lambda, or unset (lone_lamp)
   Spectrum mixture;  // camera slot j's weight of the mixed slots; read only where mixed
   Mask mixed;
   Mask alone;  // dispersion has ended the secondaries
   Int hero;    // RGB mode with chromatic media; otherwise 0
 } Throughput;
+
+/// The spectrum of the scene's only light, or -1. It shines alike everywhere, so a path reads its radiance once for all its vertices.
+STOKES_FN int lone_lamp(const SceneView* view) {
+  if (view->scene->light_count != 1u) return -1;
+  return max((int)view->lights[0].emission, -1);
+}
+
+/// Reads the lamp at the masked lanes' wavelengths, which have changed.
+STOKES_FN void throughput_see_lamp(const SceneView* view, Throughput* t, Mask mask) {
+  const int emission = lone_lamp(view);
+  if (emission < 0 || !any(mask)) return;
+  t->lamp = select_spectrum(mask, spectrum_eval(view, integer(emission), &t->lambda), t->lamp);
+}
 
 /// The hero's component of a spectrum.
 STOKES_FN Real hero_value(const Throughput* t, const Spectrum* s) {
@@ -83,6 +97,7 @@ STOKES_FN void throughput_filter_density(Throughput* t, const Spectrum* factor, 
 STOKES_FN void throughput_adopt(Throughput* t, const Throughput* other, Real scale, Mask mask) {
   t->lambda = select_spectrum(mask, other->lambda, t->lambda);
   t->beta = select_spectrum(mask, other->beta, t->beta);
+  t->lamp = select_spectrum(mask, other->lamp, t->lamp);
   t->density = select_spectrum(mask, other->density, t->density);
   t->mixture = select_spectrum(mask, other->mixture, t->mixture);
   t->mixed = (mask & other->mixed) | (!mask & t->mixed);

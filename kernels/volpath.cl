@@ -6,14 +6,6 @@
 #include "aov.cl"
 #include "queue.cl"
 
-/// Starts the next ray of the masked lanes at a surface point, in the medium of the side that `direction` leaves into.
-STOKES_FN void leave_surface(const SceneView* view, PathState* path, const SurfacePoint* point, Real3 direction, Mask mask) {
-  const Mask out = dot3(direction, point->ng) > real(0.0f);
-  path->origin = select3(mask, offset_origin(point, direction), path->origin);
-  path->exclude = mask ? point->primitive : path->exclude;
-  medium_enter(view, out ? point->medium_outside : point->medium_inside, &path->throughput, mask, &path->medium);
-}
-
 /// At fluorescent vertices: whether the continued ray takes the fluorescent branch, on whose wavelengths it then goes on.
 STOKES_FN Mask choose_branch(const SceneView* view, PathState* path, const Excitation* x) {
   if (!any(x->lanes)) return no_lanes();
@@ -84,15 +76,11 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
     const Real3 origin = path.origin;
     const Flight flight = path_fly(view, &path, counters);
     if (SCENE_HAS_THIN_MEDIA && any(flight.airlight.sought)) collect_airlight(view, &path, &flight.airlight, counters);
-    if (any(flight.escaped)) {
-      collect_surroundings(view, &path, flight.escaped);
-      path.alive = path.alive & !flight.escaped;
-    }
 
     // At a surface: take its light, and find the material that the path meets there.
     SurfacePoint point = surface_point_none();
     Int material = integer(0);
-    Mask at_surface = flight.at_surface;
+    Mask at_surface = flight.at_surface, escaped = flight.escaped;
     if (any(at_surface)) {
       point = surface_point(view, origin, path.direction, flight.hit, at_surface);
       collect_emission(view, &path, &point, at_surface);
@@ -103,10 +91,17 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
       const Int type = material_uint(view, material, 0);
       // Index-matched boundaries only change the medium; lights absorb.
       const Mask crosses = at_surface & (type == integer(MATERIAL_INTERFACE));
-      if (SCENE_HAS_INTERFACES && any(crosses)) leave_surface(view, &path, &point, path.direction, crosses);
+      if (SCENE_HAS_INTERFACES && any(crosses)) {
+        leave_surface(view, &path, &point, path.direction, crosses);
+        escaped = escaped | (crosses & (path.medium.index == integer(0)) & leaves_box(view, path.origin, path.direction));
+      }
       const Mask absorbs = at_surface & (type == integer(MATERIAL_BLACK));
       path.alive = path.alive & !absorbs;
       at_surface = at_surface & !crosses & !absorbs;
+    }
+    if (any(escaped)) {
+      collect_surroundings(view, &path, escaped);
+      path.alive = path.alive & !escaped;
     }
 
     // Whoever is left scatters, if it still may.

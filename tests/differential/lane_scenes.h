@@ -42,9 +42,10 @@ inline constexpr const char* kSurfacesScene = R"({
   ]
 })";
 
-/// Fog round a chromatic ball behind glass and a dense mesh behind an index-matched boundary, whose walks skip empty space.
+/// Fog round a chromatic ball behind glass and a dense mesh behind an index-matched boundary, whose walks skip empty space. The camera sees the
+/// boundary through nothing: paths start beyond it.
 inline constexpr const char* kMediaScene = R"({
-  "camera": {"transform": {"from": [0, 0.4, 5], "at": [0, 0, 0]}, "vfov": 40, "resolution": [20, 16], "medium": "fog"},
+  "camera": {"transform": {"from": [0, 0.4, 5], "at": [0, 0, 0]}, "vfov": 40, "resolution": [20, 16]},
   "integrator": {"type": "path tracer volumetric mis", "max bounces": 48, "russian roulette": 8},
   "background": 0.1,
   "media": [
