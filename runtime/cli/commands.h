@@ -36,5 +36,6 @@ Command add_bench(CLI::App& root);
 Command add_plot(CLI::App& root);
 Command add_merge(CLI::App& root);
 Command add_info(CLI::App& root);
+Command add_new(CLI::App& root);
 
 }  // namespace stokes

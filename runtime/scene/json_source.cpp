@@ -9,6 +9,7 @@ namespace stokes {
 namespace {
 
 constexpr int kMaxDepth = 100;
+constexpr bool kComments = true;  // both the C++ and the C kind, as in editors' JSON with comments
 
 SourcePosition position_at(const std::string& text, std::size_t offset) {
   SourcePosition p{1, 1};
@@ -67,7 +68,7 @@ std::string plain_message(const std::string& message, const std::string& token) 
 void check_grammar(const std::string& text, const std::string& file_name) {
   GrammarCheck check;
   SourceMap map{file_name, {}};
-  if (Json::sax_parse(text, &check)) return;
+  if (Json::sax_parse(text, &check, nlohmann::detail::input_format_t::json, true, kComments)) return;
   if (check.too_deep) throw SceneError(map, "", "nested deeper than " + std::to_string(kMaxDepth) + " levels");
   const std::size_t at = check.offset > 0 ? check.offset - 1 : 0;
   map.places[""] = position_at(text, at);
@@ -101,7 +102,25 @@ class PlaceFinder {
     offset_++;
   }
   void skip_space() {
-    while (offset_ < text_.size() && (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r')) advance();
+    while (offset_ < text_.size()) {
+      if (peek() == '/')
+        comment();
+      else if (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r')
+        advance();
+      else
+        return;
+    }
+  }
+  // Ends where the library's does: a line's at either kind of line end, the other at its closing.
+  void comment() {
+    const bool block = text_[offset_ + 1] == '*';
+    advance(), advance();
+    if (!block) {
+      while (offset_ < text_.size() && peek() != '\n' && peek() != '\r') advance();
+      return;
+    }
+    while (text_.compare(offset_, 2, "*/") != 0) advance();
+    advance(), advance();
   }
   SourcePosition here() const { return {line_, static_cast<int>(offset_ - line_start_) + 1}; }
 
@@ -128,7 +147,7 @@ class PlaceFinder {
         quoted();
         return;
       default:
-        while (offset_ < text_.size() && std::string(",]} \t\r\n").find(peek()) == std::string::npos) advance();
+        while (offset_ < text_.size() && std::string(",]}/ \t\r\n").find(peek()) == std::string::npos) advance();
     }
   }
 
@@ -213,7 +232,7 @@ JsonSource parse_json(const std::string& text, const std::string& file_name) {
   JsonSource source;
   source.map.file = file_name;
   check_grammar(text, file_name);
-  source.root = Json::parse(text);
+  source.root = Json::parse(text, nullptr, true, kComments);
   PlaceFinder(text, source).run();
   return source;
 }

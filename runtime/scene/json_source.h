@@ -19,7 +19,8 @@ struct JsonSource {
 };
 
 /// Parses `text`. Throws SceneError for what JSON forbids, and for what JSON libraries let pass: duplicate keys (the spaced and
-/// the underscored spelling of a key count as the same), NaN and infinities, numbers that overflow, text after the end.
+/// the underscored spelling of a key count as the same), NaN and infinities, numbers that overflow, text after the end. Comments,
+/// `//` and `/* */`, are accepted.
 JsonSource parse_json(const std::string& text, const std::string& file_name);
 
 /// Applies `--set POINTER=VALUE`: VALUE is JSON, or failing that a string. Objects that are missing on the way are created;

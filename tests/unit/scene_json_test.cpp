@@ -42,11 +42,29 @@ TEST(SceneJson, WhatIsNotJson) {
   EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::HasSubstr("1e999 is too large for a number"));
   EXPECT_THAT(error_of("{\"camera\": {}}\n}"), testing::StartsWith("scene.json:2:1: error: not JSON:"));
   EXPECT_THAT(error_of("{\"camera\": {},}"), testing::StartsWith("scene.json:1:15: error: not JSON:"));
-  EXPECT_THAT(error_of("{\"camera\": {} // eye\n}"), testing::StartsWith("scene.json:1:1"));
+  EXPECT_THAT(error_of("{\"camera\": {} / eye\n}"), testing::StartsWith("scene.json:1:1"));
+  EXPECT_THAT(error_of("{\"camera\": {} /* eye\n}"), testing::HasSubstr("not JSON"));
+  EXPECT_THAT(error_of("{\"camera\": {}} /* eye * /"), testing::HasSubstr("not JSON"));
   EXPECT_THAT(error_of(""), testing::StartsWith("scene.json:1:1: error: not JSON:"));
   EXPECT_THAT(error_of("{\"camera\": \"\xff\"}"), testing::HasSubstr("not JSON"));
   EXPECT_EQ(error_of("[]"), "scene.json:1:1: error: expected a scene, not an array");
   EXPECT_THAT(error_of("{\"camera\":" + std::string(5000, '[')), testing::HasSubstr("nested deeper"));
+}
+
+TEST(SceneJson, PlacesSurviveComments) {
+  const SceneDescription s = parse(
+      "// a scene {\r\n/* of \"one\"\n * camera **/ {\"camera\": {/**/}, // }\n"
+      " \"film\" /* , */ : /*[*/ {} /*]*/, \"$schema\": \"// no comment /*\",\n \"sampler\": {\"samples\":3/**/,\"seed\":4//\n}}//");
+  EXPECT_EQ(s.samples, 3);
+  EXPECT_EQ(s.seed, 4u);
+  EXPECT_EQ(s.source.find("/camera").line, 3);
+  EXPECT_EQ(s.source.find("/camera").column, 26);
+  EXPECT_EQ(s.source.find("/film").line, 4);
+  EXPECT_EQ(s.source.find("/film").column, 25);
+  EXPECT_EQ(s.source.find("/sampler/seed").line, 5);
+  EXPECT_EQ(s.source.find("/sampler/seed").column, 37);
+  EXPECT_EQ(error_of("{// the eye\n\"camera\": {}, /* the\nshapes */ \"surfacs\": []}"),
+            "scene.json:3:11: error: /surfacs: unknown key in a scene; did you mean \"surfaces\"?");
 }
 
 TEST(SceneJson, EveryErrorIsOneLine) {
