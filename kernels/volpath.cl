@@ -50,12 +50,16 @@ STOKES_FN void scatter(const SceneView* view, PathState* path, const Vertex* v, 
 }
 
 /// Ends paths that can bring little, by chance and without bias; power counts, over all wavelengths.
-STOKES_FN void russian_roulette(const SceneView* view, PathState* path, Mask scattered) {
+///
+/// At surfaces one path in twenty ends whatever it carries, so that mirrors do not keep light for ever. In a medium it may live on: light
+/// in skin scatters hundreds of times and loses little, and paths ended regardless would leave their weight to the few that come out.
+STOKES_FN void russian_roulette(const SceneView* view, PathState* path, Mask scattered, Mask in_medium) {
   const uint begin = view->scene->russian_roulette;
   if (begin == STOKES_NONE) return;
   const Mask m = path->alive & scattered & (path->bounces >= integer((int)min(begin, 0x7fffffffu)));
   if (!any(m)) return;
-  const Real survival = min_real(throughput_power(&path->throughput) * path->eta_scale, real(0.95f));
+  const Real most = in_medium ? real(1.0f) : real(0.95f);
+  const Real survival = min_real(throughput_power(&path->throughput) * path->eta_scale, most);
   const Mask ends = m & (path_random(path, m) >= survival);
   path->alive = path->alive & !ends;
   throughput_scale(&path->throughput, real(1.0f) / survival, m & !ends);
@@ -126,7 +130,7 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
       collect_direct(view, &path, &vertex, &point, &excitation, seeking, &numbers, flight.airlight.share, counters);
     }
     scatter(view, &path, &vertex, &point, &excitation, seeking);
-    russian_roulette(view, &path, scatters);
+    russian_roulette(view, &path, scatters, vertex.in_medium);
   }
 }
 #endif
