@@ -5,7 +5,7 @@
 #ifndef STOKES_INTERSECT_CL
 #define STOKES_INTERSECT_CL
 #include "clearance.cl"
-#include "shapes.cl"
+#include "rooms.cl"
 #include "surface.cl"
 #include "traverse.cl"
 
@@ -44,22 +44,21 @@ STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int ex
   hit->primitive = load_int(primitives);
 }
 
-/// The nearest hit in (0, tmax). d is a unit vector. `exclude` is the primitive that the ray starts on, or -1: it is skipped
-/// if flat, and met only at its far side if curved. Lanes that are not active get primitive -1.
-STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+STOKES_FN int is_loose(const SceneView* view, int quad) { return !((view->scene->room_quads[quad / 32] >> (quad % 32)) & 1u); }
+
+/// closest_hit, with `between` as in meet_rooms.
+STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active, int between) {
   Hit hit;
   hit.t = tmax;
   hit.primitive = integer(-1);
   hit.u = real(0.0f);
   hit.v = real(0.0f);
   const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
-  // Only where surfaces let light through are shadow rays asked for what they meet.
-  const ulong aside = SCENE_HAS_QUADS && SCENE_HAS_INTERFACES ? quads_aside(view, o, d, tmax, active) : 0ul;
-  if (SCENE_HAS_QUADS)
-    for (int i = 0; i < quads; i++) {
-      if ((aside >> i) & 1ul) continue;
-      keep_nearer(&hit, exclude == integer(i) ? real(0.0f) : meet_quad(view->quads + i, o, d), i);
-    }
+  if (SCENE_HAS_QUADS) {
+    meet_rooms(view, o, d, tmax, exclude, active, between, &hit);
+    for (int i = 0; i < quads; i++)
+      if (is_loose(view, i)) keep_nearer(&hit, exclude == integer(i) ? real(0.0f) : meet_quad(view->quads + i, o, d), i);
+  }
   if (SCENE_HAS_SPHERES)
     for (int i = quads; i < spheres; i++)
       keep_nearer(&hit, meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i)), i);
@@ -69,6 +68,17 @@ STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, In
   hit.primitive = active ? hit.primitive : integer(-1);
   if (SCENE_HAS_TRIANGLES) closest_triangles(view, o, d, exclude, active, &hit);
   return hit;
+}
+
+/// The nearest hit in (0, tmax). d is a unit vector. `exclude` is the primitive that the ray starts on, or -1: it is skipped
+/// if flat, and met only at its far side if curved. Lanes that are not active get primitive -1.
+STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+  return closest_hit_of(view, o, d, tmax, exclude, active, 0);
+}
+
+/// The same, for rays most of which meet nothing.
+STOKES_FN Hit first_obstacle(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
+  return closest_hit_of(view, o, d, tmax, exclude, active, 1);
 }
 
 STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
@@ -93,13 +103,18 @@ STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real t
 STOKES_FN Mask occluded(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
   const int quads = first_sphere(view), spheres = first_ellipsoid(view), ellipsoids = first_triangle(view);
   Mask open = active;
-  const ulong aside = SCENE_HAS_QUADS ? quads_aside(view, o, d, tmax, active) : 0ul;
-  if (SCENE_HAS_QUADS)
+  if (SCENE_HAS_QUADS) {
+    Hit wall;
+    wall.t = tmax;
+    wall.primitive = integer(-1);
+    meet_rooms(view, o, d, tmax, exclude, active, 1, &wall);
+    open = open & (wall.primitive < integer(0));
     for (int i = 0; i < quads; i++) {
-      if ((aside >> i) & 1ul) continue;
+      if (!is_loose(view, i)) continue;
       const Real t = meet_quad(view->quads + i, o, d);
       open = open & ((exclude == integer(i)) | !((t > real(0.0f)) & (t < tmax)));
     }
+  }
   if (SCENE_HAS_SPHERES)
     for (int i = quads; i < spheres; i++) {
       const Real t = meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i));

@@ -325,6 +325,14 @@ enum IntegratorType {
   INTEGRATOR_AO = 4
 };
 
+// Quads that are faces of one box along the axes: rays are tested against them together, as against the planes of the box.
+typedef struct {
+  Vec3 low, high;
+  int faces[6];  // the quads at x low, x high, y low, y high, z low and z high; -1: open
+} Room;
+LAYOUT_CHECK(Room, 48);
+#define SCENE_ROOMS 4
+
 typedef struct {
   Camera camera;
   uint integrator;
@@ -343,11 +351,12 @@ typedef struct {
   float spectral_begin, spectral_end;  // nm
   uint film_channels;     // FILM_* in use
   uint film_stride;       // longs per pixel
-  // Around all primitives. Quads that lie in its faces stand between no two points within it; bit i: quad i does not lie in one.
-  Vec3 box_low, box_high;
-  uint free_quads[2];
+  Vec3 box_low, box_high;  // around all primitives
+  uint room_quads[2];      // bit i: quad i is a face of a room
+  uint room_count;
+  Room rooms[SCENE_ROOMS];
 } Scene;
-LAYOUT_CHECK(Scene, 200);
+LAYOUT_CHECK(Scene, 396);
 
 // ---- Film ------------------------------------------------------------------------------------------------------
 // Per pixel `film_stride` 64-bit words. Sums are integers in units of a quantum, so that they do not depend on the order:

@@ -45,7 +45,7 @@ STOKES_FN Mask shadow_walk(const SceneView* view, ShadowRay* ray, const PathStat
     Hit hit;
     Mask blocked;
     if (SCENE_HAS_INTERFACES) {
-      hit = closest_hit(view, ray->origin, ray->direction, ray->distance * STOKES_SHADOW_REACH, ray->exclude, walking);
+      hit = first_obstacle(view, ray->origin, ray->direction, ray->distance * STOKES_SHADOW_REACH, ray->exclude, walking);
       blocked = walking & (hit.primitive >= integer(0));
     } else {
       blocked = occluded(view, ray->origin, ray->direction, ray->distance * STOKES_SHADOW_REACH, ray->exclude, walking);

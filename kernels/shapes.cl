@@ -16,19 +16,6 @@ STOKES_FN int first_sphere(const SceneView* view) { return (int)view->scene->qua
 STOKES_FN int first_ellipsoid(const SceneView* view) { return first_sphere(view) + (int)view->scene->sphere_count; }
 STOKES_FN int first_triangle(const SceneView* view) { return first_ellipsoid(view) + (int)view->scene->ellipsoid_count; }
 
-STOKES_FN Mask within_box(const SceneView* view, Real3 p) {
-  const Vec3 low = view->scene->box_low, high = view->scene->box_high;
-  return (p.x >= real(low.x)) & (p.x <= real(high.x)) & (p.y >= real(low.y)) & (p.y <= real(high.y)) & (p.z >= real(low.z)) &
-         (p.z <= real(high.z));
-}
-
-/// The quads that cannot be met on the way from o to o + d tmax, as bits: walls of a room do not stand between two points within it, which
-/// spares shadow rays most of the quads.
-STOKES_FN ulong quads_aside(const SceneView* view, Real3 o, Real3 d, Real tmax, Mask active) {
-  const ulong free = ((ulong)view->scene->free_quads[1] << 32) | view->scene->free_quads[0];
-  return any(active & !(within_box(view, o) & within_box(view, madd3(o, d, tmax)))) ? 0ul : ~free;
-}
-
 /// Distance to a quad, or 0. Worked out from the corner, so that the error scales with the ray, not with the place in the
 /// world; the quad is grown by that error, so that quads that share an edge leave no gap.
 STOKES_FN Real meet_quad(const __global Quad* quad, Real3 o, Real3 d) {

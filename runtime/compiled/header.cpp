@@ -4,6 +4,7 @@
 
 #include "compiled/bounds.h"
 #include "compiled/compilation.h"
+#include "compiled/rooms.h"
 #include "compiled/shapes.h"
 
 namespace stokes::compiled {
@@ -42,25 +43,19 @@ void fill_film(Compilation& c, layout::Scene& h) {
   h.spectral_end = float(o.spectral_end);
 }
 
-bool lies_in_face(const layout::Quad& quad, layout::Vec3 low, layout::Vec3 high) {
-  const Vec3d p = to_double(quad.corner), u = to_double(quad.edge_u), v = to_double(quad.edge_v);
-  const layout::Vec3 corners[] = {to_float(p), to_float(p + u), to_float(p + v), to_float(p + u + v)};
-  const auto all_at = [&corners](float layout::Vec3::*axis, float at) {
-    return std::all_of(std::begin(corners), std::end(corners), [=](const layout::Vec3& c) { return c.*axis == at; });
-  };
-  for (const auto axis : {&layout::Vec3::x, &layout::Vec3::y, &layout::Vec3::z})
-    if (all_at(axis, low.*axis) || all_at(axis, high.*axis)) return true;
-  return false;
-}
-
-// The walls of a room: shadow rays need not look for them.
 void fill_box(Compilation& c, layout::Scene& h, const Bounds& box) {
-  h.free_quads[0] = h.free_quads[1] = 0;
-  if (box.empty()) return;
-  h.box_low = to_float(box.low);
-  h.box_high = to_float(box.high);
-  for (std::size_t i = 0; i < std::min(c.out.quads.size(), kMaxAnalyticQuads); i++)
-    if (!lies_in_face(c.out.quads[i], h.box_low, h.box_high)) h.free_quads[i / 32] |= 1u << (i % 32);
+  if (!box.empty()) {
+    h.box_low = to_float(box.low);
+    h.box_high = to_float(box.high);
+  }
+  const std::vector<layout::Room> rooms = find_rooms(c.out.quads);
+  h.room_count = layout::uint(rooms.size());
+  h.room_quads[0] = h.room_quads[1] = 0;
+  for (std::size_t i = 0; i < rooms.size(); i++) {
+    h.rooms[i] = rooms[i];
+    for (const int quad : rooms[i].faces)
+      if (quad >= 0) h.room_quads[quad / 32] |= 1u << (quad % 32);
+  }
 }
 
 }  // namespace

@@ -24,10 +24,11 @@
   S(Reradiation, F(offset) F(columns) F(rows) F(li_min) F(li_step) F(lo_min) F(lo_step) F(first_excitation))                  \
   S(Light, F(type) F(primitive) F(emission) F(probability) F(alias_threshold) F(alias) F(area) F(padding))                    \
   S(Environment, F(image_offset) F(width) F(height) F(scale) F(to_local) F(illuminant) F(padding))                            \
+  S(Room, F(low) F(high) F(faces))                                                                                            \
   S(Scene, F(camera) F(integrator) F(max_bounces) F(russian_roulette) F(quad_count) F(sphere_count) F(ellipsoid_count)        \
            F(triangle_count) F(light_count) F(background_light) F(background) F(has_environment) F(scene_radius)              \
            F(scene_center) F(film_quantum) F(depth_quantum) F(spectral_bins) F(spectral_begin) F(spectral_end)                \
-           F(film_channels) F(film_stride) F(box_low) F(box_high) F(free_quads))                                              \
+           F(film_channels) F(film_stride) F(box_low) F(box_high) F(room_quads) F(room_count) F(rooms))                           \
   S(Launch, F(seed) F(pixel_begin) F(pixel_end) F(sample_begin) F(sample_end) F(chunk) F(crop_x) F(crop_y) F(crop_width)      \
             F(crop_height) F(padding))
 // clang-format on

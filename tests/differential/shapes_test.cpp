@@ -5,6 +5,7 @@
 
 #include "reference/intersect.h"
 #include "support/kernel_program.h"
+#include "compiled/rooms.h"
 #include "support/test_shapes.h"
 
 namespace stokes::testing {
@@ -243,6 +244,65 @@ TEST(KernelShapes, AQuadBoxHasNoGaps) {
   int leaks = 0;
   for (std::int32_t p : s.primitive) leaks += p < 0;
   EXPECT_EQ(leaks, 0);
+}
+
+/// A room without a front, a boundary close round it, and shapes inside.
+CompiledScene room_scene() {
+  CompiledScene scene = shapes_scene(4, 4, 0, 9);
+  for (const double r : {1.0, 1.001})
+    for (int axis = 0; axis < 3; axis++)
+      for (const double side : {-r, r}) {
+        if (r == 1 && axis == 2 && side > 0) continue;
+        const Vec3d x = axis == 0 ? Vec3d{1, 0, 0} : axis == 1 ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1}, y{x.z, x.x, x.y}, z{x.y, x.z, x.x};
+        scene.quads.push_back(make_quad(x * side - y * r - z * r, y * (2 * r), z * (2 * r)));
+      }
+  scene.header.quad_count = layout::uint(scene.quads.size());
+  const std::vector<layout::Room> rooms = compiled::find_rooms(scene.quads);
+  scene.header.room_count = layout::uint(rooms.size());
+  for (std::size_t i = 0; i < rooms.size(); i++) scene.header.rooms[i] = rooms[i];
+  scene.header.room_quads[0] = 0x7ff0;
+  return scene;
+}
+
+TEST(KernelShapes, RoomsAreTheirWalls) {
+  const CompiledScene scene = room_scene();
+  ASSERT_EQ(scene.header.room_count, 2u);
+  std::vector<Ray> rays = rays_in_cube(1 << 14, 7, 1.0);
+  Numbers u(8);
+  for (std::size_t i = 0; i < rays.size(); i++) {
+    Ray& r = rays[i];
+    // Whole groups of lanes inside, short ones and long ones; some outside; some that start on a wall.
+    if (i / 8 % 4 == 0)
+      for (float& x : r.o) x *= 1.6f;
+    if (i % 3 == 0) r.tmax = float(0.5 + u.one());
+    if (i / 8 % 4 == 1) {
+      const layout::Quad& wall = scene.quads[4 + i % 11];
+      const Vec3d p = reference::vec(wall.corner) + reference::vec(wall.edge_u) * u.one() + reference::vec(wall.edge_v) * u.one();
+      // A little off it, to either side, as rounding may leave it.
+      r.o[0] = float(p.x + 2e-6 * u.signed_one()), r.o[1] = float(p.y + 2e-6 * u.signed_one()), r.o[2] = float(p.z + 2e-6 * u.signed_one());
+      r.exclude = std::int32_t(4 + i % 11);
+    }
+  }
+  for (const int lanes : {1, 8}) {
+    KernelProgram program = program_for(scene, lanes);
+    std::vector<std::int32_t> primitive(rays.size()), blocked(rays.size());
+    std::vector<float> tuv(rays.size() * 3);
+    program.run_with_scene("probe_closest", rays.size() / std::size_t(lanes), ray_floats(rays), Out{primitive}, Out{tuv});
+    program.run_with_scene("probe_occluded", rays.size() / std::size_t(lanes), ray_floats(rays), Out{blocked});
+    int different = 0, walls = 0;
+    for (std::size_t i = 0; i < rays.size(); i++) {
+      const reference::Hit e = exact_hit(scene, rays[i]);
+      different += (blocked[i] != 0) != e.found();
+      if (primitive[i] != std::int32_t(e.primitive)) {
+        different++;
+      } else if (e.found()) {
+        walls += e.primitive >= 4 && e.primitive < 15;
+        EXPECT_NEAR(tuv[3 * i], e.t, 3e-5 * (1 + e.t)) << i;
+      }
+    }
+    EXPECT_LE(different, 8);
+    EXPECT_GT(walls, 5000);
+  }
 }
 
 TEST(KernelShapes, EveryLaneCountGivesTheSameBits) {

@@ -191,14 +191,54 @@ TEST(CompiledScene, KnowsItsBounds) {
   EXPECT_NEAR(s.header.scene_radius, std::sqrt(11.0), 1e-5);
 }
 
-TEST(CompiledScene, KnowsItsWalls) {
-  const CompiledScene s = compile_scene(scene_of({quad(lambertian(), translate({0, 0, -1}), 2, 2), quad(lambertian(), translate({0, 0, -0.5}), 2, 2),
-                                                  sphere(lambertian(), translate({0, 0, -0.5}), 0.5)}));
-  EXPECT_EQ(s.header.box_low.z, -1);
-  EXPECT_EQ(s.header.box_high.z, 0);
-  // The first quad lies in the box's lower face, the second within the box.
-  EXPECT_EQ(s.header.free_quads[0], 2u);
-  EXPECT_EQ(s.header.free_quads[1], 0u);
+// Faces of a cube round the origin: 0 and 1 across x, 2 and 3 across y, 4 and 5 across z, the lower one first.
+std::vector<SurfaceDescription> walls(std::initializer_list<int> faces, double side = 2) {
+  std::vector<SurfaceDescription> surfaces;
+  for (const int f : faces) {
+    const Affine across_x{{0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0}};
+    const Affine turn = f < 2 ? across_x : f < 4 ? rotate_x(-kPi / 2) : translate({});
+    surfaces.push_back(quad(lambertian(), turn * translate({0, 0, f % 2 == 0 ? -side / 2 : side / 2}), side, side));
+  }
+  return surfaces;
+}
+
+TEST(CompiledScene, KnowsItsRooms) {
+  std::vector<SurfaceDescription> surfaces = walls({3, 0, 1, 4, 2});
+  surfaces.push_back(quad(lambertian(), translate({0, 0, -0.5}), 2, 2));
+  const layout::Scene h = compile_scene(scene_of(surfaces)).header;
+  ASSERT_EQ(h.room_count, 1u);
+  EXPECT_EQ(h.room_quads[0], 31u);
+  expect_near(to_double(h.rooms[0].low), {-1, -1, -1});
+  expect_near(to_double(h.rooms[0].high), {1, 1, 1});
+  const int faces[] = {1, 2, 4, 0, 3, -1};
+  for (int f = 0; f < 6; f++) EXPECT_EQ(h.rooms[0].faces[f], faces[f]) << f;
+}
+
+TEST(CompiledScene, RoomsMayLieWithinRooms) {
+  std::vector<SurfaceDescription> surfaces = walls({0, 1, 2, 3});
+  for (const SurfaceDescription& s : walls({0, 1, 2, 3, 4, 5}, 2.002)) surfaces.push_back(s);
+  const layout::Scene h = compile_scene(scene_of(surfaces)).header;
+  ASSERT_EQ(h.room_count, 2u);
+  EXPECT_EQ(h.room_quads[0], 0x3ffu);
+  EXPECT_EQ(h.rooms[0].faces[0], 4) << "most faces first";
+  EXPECT_EQ(h.rooms[1].faces[5], -1);
+}
+
+TEST(CompiledScene, TwoWallsAreNoRoom) { EXPECT_EQ(compile_scene(scene_of(walls({0, 1}))).header.room_count, 0u); }
+
+TEST(CompiledScene, WallsWithAGapAreNoRoom) {
+  std::vector<SurfaceDescription> surfaces = walls({0, 1, 2});
+  surfaces[2] = quad(lambertian(), rotate_x(-kPi / 2) * translate({0, 0, -1}), 2, 1.999);
+  EXPECT_EQ(compile_scene(scene_of(surfaces)).header.room_count, 0u);
+}
+
+// Which of the two is seen depends on their order, and must go on to.
+TEST(CompiledScene, AWallWithALampInItsPlaneIsNoFace) {
+  std::vector<SurfaceDescription> surfaces = walls({0, 1, 2, 3});
+  surfaces.push_back(quad(lambertian(), rotate_x(-kPi / 2) * translate({0, 0, 1}), 0.5, 0.5));
+  const layout::Scene h = compile_scene(scene_of(surfaces)).header;
+  ASSERT_EQ(h.room_count, 1u);
+  EXPECT_EQ(h.room_quads[0], 7u);
 }
 
 }  // namespace
