@@ -31,18 +31,32 @@ typedef struct {
   Spectrum emission;  // of the chosen one, as dye_emission
 } DyeChoice;
 
+/// A dye's two curves at one wavelength: what it absorbs, and *emission.
+STOKES_FN Real dye_curves(const SceneView* view, Int curves, Real lambda, Real* emission) {
+  Real f, ends[4];
+  const Int c = spectrum_cell(lambda, &f);
+  gather_real4(view->spectra, curves * (STOKES_SPECTRUM_STRIDE / 4) + c, ends);
+  *emission = fma(f, ends[3] - ends[2], ends[2]);
+  return fma(f, ends[1] - ends[0], ends[0]);
+}
+
 /// What a dye gives off at the path's wavelengths: emission(lo) [/ lo], per nm. *absorbed receives what it absorbs there.
-STOKES_FN Spectrum dye_emission(const SceneView* view, Int flags, Int curves, const Spectrum* lambda, Spectrum* absorbed) {
-  const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0);
-  Spectrum e;
-  FOR_EACH_WAVELENGTH(k) {
-    Real f, ends[4];
-    const Int c = spectrum_cell(lambda->v[k], &f);
-    gather_real4(view->spectra, curves * (STOKES_SPECTRUM_STRIDE / 4) + c, ends);
-    absorbed->v[k] = fma(f, ends[1] - ends[0], ends[0]);
-    e.v[k] = fma(f, ends[3] - ends[2], ends[2]);
-    e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];
+STOKES_FN Spectrum dye_emission(const SceneView* view, Int flags, Int curves, const Spectrum* lambda, Mask mask, Spectrum* absorbed) {
+  Spectrum e = spectrum_constant(real(0.0f));
+  if (STOKES_PACKS_SLOTS) {
+    *absorbed = e;
+    for (uint left = lane_bits(mask); left != 0u;) {
+      const SlotPaths paths = slots_take(&left);
+      Real emitted;
+      const Real taken = dye_curves(view, slots_of_int(&paths, &curves), slots_of_spectrum(&paths, lambda), &emitted);
+      slots_return(&paths, taken, absorbed);
+      slots_return(&paths, emitted, &e);
+    }
+  } else {
+    FOR_EACH_WAVELENGTH(k) absorbed->v[k] = dye_curves(view, curves, lambda->v[k], &e.v[k]);
   }
+  const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0);
+  if (any(mask & photon)) FOR_EACH_WAVELENGTH(k) e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];
   return e;
 }
 
@@ -66,7 +80,7 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
     Int row[4];
     dye_row(view, dye, 1, row);
     Spectrum a;
-    const Spectrum e = dye_emission(view, row[1], row[2], &t->lambda, &a);
+    const Spectrum e = dye_emission(view, row[1], row[2], &t->lambda, m, &a);
     const Real strength = m ? as_real(row[0]) * beta_sum(t, &e) : real(0.0f);
     // A reservoir of one: what is left of u is uniform again.
     const Real total = c.total + strength;
@@ -83,6 +97,33 @@ STOKES_FN DyeChoice dye_choose(const SceneView* view, const Throughput* t, Int f
   }
 }
 
+/// Stratified excitation wavelengths of the masked lanes and their densities per nm; *absorbed and, of a lone lamp, *lamp receive what the curves
+/// are there.
+STOKES_FN Spectrum excitation_sample(const SceneView* view, Int excitation, Int absorption, Real u, Mask mask, Spectrum* pdf, Spectrum* absorbed,
+                                     Spectrum* lamp) {
+  const int lamp_table = lone_lamp(view);
+  Spectrum li = spectrum_constant(real(STOKES_LAMBDA_MIN));
+  if (STOKES_PACKS_SLOTS) {
+    *pdf = *absorbed = li;
+    for (uint left = lane_bits(mask); left != 0u;) {
+      const SlotPaths paths = slots_take(&left);
+      Real density;
+      const Real drawn = distribution_sample(view, slots_of_int(&paths, &excitation), slots_stratum(slots_of_real(&paths, &u)), all_lanes(), &density);
+      slots_return(&paths, drawn, &li);
+      slots_return(&paths, density, pdf);
+      slots_return(&paths, spectrum_eval1(view, slots_of_int(&paths, &absorption), drawn), absorbed);
+      if (lamp_table >= 0) slots_return(&paths, spectrum_eval1(view, integer(lamp_table), drawn), lamp);
+    }
+  } else {
+    FOR_EACH_WAVELENGTH(k) {
+      li.v[k] = distribution_sample(view, excitation, stratum(u, k), mask, &pdf->v[k]);
+      absorbed->v[k] = spectrum_eval1(view, absorption, li.v[k]);
+      if (lamp_table >= 0) lamp->v[k] = mask ? spectrum_eval1(view, integer(lamp_table), li.v[k]) : lamp->v[k];
+    }
+  }
+  return li;
+}
+
 /// The throughput beyond an event at the chosen dye: the masked lanes of *out.
 STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeChoice* c, Real u, Mask mask, Throughput* out) {
   const Int dye = mask ? c->dye : integer(0);
@@ -90,16 +131,15 @@ STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeC
   dye_row(view, dye, 0, row);
   const Int flags = c->flags;
   const Mask photon = (flags & (int)DYE_PHOTON_YIELD) != integer(0), stokes = (flags & (int)DYE_STOKES) != integer(0);
-  const Int absorption = row[0], excitation = row[2];
   const Real scale = as_real(row[3]) / (mask ? c->chosen / c->total : real(1.0f));
   const Real share = hero_share(t);
   Real mean = real(0.0f);
   FOR_EACH_WAVELENGTH(k) mean = fma(t->beta.v[k] * c->emission.v[k], real(1.0f / (float)WAVELENGTHS), mean);
+  Spectrum pdf, absorption;
+  const Spectrum drawn = excitation_sample(view, row[2], row[0], u, mask, &pdf, &absorption, &out->lamp);
   FOR_EACH_WAVELENGTH(k) {
-    Real pdf;
-    const Real li = distribution_sample(view, excitation, stratum(u, k), mask, &pdf);
-    const Real lo = t->lambda.v[k];
-    const Real absorbed = spectrum_eval1(view, absorption, li) * (photon ? li : real(1.0f)) * scale / pdf;
+    const Real li = drawn.v[k], lo = t->lambda.v[k];
+    const Real absorbed = absorption.v[k] * (photon ? li : real(1.0f)) * scale / pdf.v[k];
     // Without a mask the slots' emissions move into the mixture; with it each slot carries its own on.
     const Real own = t->beta.v[k] * c->emission.v[k];
     const Real chained = li <= lo ? own * absorbed : real(0.0f);
@@ -109,7 +149,6 @@ STOKES_FN void dye_excite(const SceneView* view, const Throughput* t, const DyeC
     out->mixture.v[k] = mask ? (stokes ? t->mixture.v[k] : mixed) : out->mixture.v[k];
     out->density.v[k] = mask ? (stokes ? t->density.v[k] : real(1.0f)) : out->density.v[k];
   }
-  throughput_see_lamp(view, out, mask);
   out->mixed = (mask & (!stokes | t->mixed)) | (!mask & out->mixed);
   out->alone = (mask & stokes & t->alone) | (!mask & out->alone);
 }

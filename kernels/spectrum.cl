@@ -2,7 +2,7 @@
 // In RGB mode a "wavelength" is a channel number 0, 1, 2, so the same calls work on tables of three.
 #ifndef STOKES_SPECTRUM_CL
 #define STOKES_SPECTRUM_CL
-#include "lanes.h"
+#include "slots.cl"
 #include "view.cl"
 
 #ifndef SCENE_RGB
@@ -86,6 +86,13 @@ STOKES_FN Real distribution_sample(const SceneView* view, Int distribution, Real
 STOKES_FN Real stratum(Real u, int k) {
   const Real x = u - real(1.0f - (float)k / (float)WAVELENGTHS);
   return x > real(0.0f) ? x : u + real((float)k / (float)WAVELENGTHS);
+}
+
+/// stratum of each slot's wavelength.
+STOKES_FN Real slots_stratum(Real u) {
+  const Real shift = to_real(slots_wavelengths()) * real(1.0f / (float)WAVELENGTHS);
+  const Real x = u - (real(1.0f) - shift);
+  return x > real(0.0f) ? x : u + shift;
 }
 
 /// The camera's wavelengths for the path's number u: wavelength k belongs to frac(u + k / WAVELENGTHS).
