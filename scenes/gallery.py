@@ -61,7 +61,7 @@ def main():
     before, rest = page.split(BEGIN)
     table, after = rest.split(END)
     rows = {name: row for row, name in re.findall(r"^(\| !\[(\w+)\].*)$", table, re.M)}
-    scenes = sorted(f.stem for f in HERE.glob("*.json"))
+    scenes = sorted(f.stem for f in HERE.glob("*.json") if f.stem != "schema")
     PICTURES.mkdir(exist_ok=True)
     for name in options.names or scenes:
         rows[name] = picture(options.stokes, name, options.seconds)
