@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "mesh/in_parallel.h"
 #include "mesh/mesh_distance.h"
 #include "mesh/shell_level.h"
 #include "mesh/shell_repair.h"
@@ -14,8 +15,8 @@ Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
   return cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
 }
 
-// A mesh that keeps its connectivity is taken when this share of its faces' middles, and nothing else, is off by over 5 %.
-constexpr double kAcceptedFaults = 0.02;
+constexpr int kFiner = 2;  // grids that are tried at most
+constexpr double kAccepted = 3e-4;  // the share of faces off the distance for which no other mesh is tried
 
 std::vector<Vec3d> vertex_normals(const MeshData& m) {
   std::vector<Vec3d> normals(m.positions.size());
@@ -69,10 +70,12 @@ MeshData shift_faces(const MeshData& mesh, double d) {
 
 // Masks and uvs of the nearest points of the parent.
 void inherit(MeshData& shell, const MeshData& parent, const MeshDistance& distance) {
-  for (const auto& mask : parent.masks) shell.masks.emplace_back(mask.first, std::vector<float>());
+  shell.masks.clear(), shell.uvs.clear();
   if (parent.masks.empty() && parent.uvs.empty()) return;
-  for (const Vec3d& p : shell.positions) {
-    const MeshPoint at = distance.nearest(p);
+  std::vector<MeshPoint> feet(shell.positions.size());
+  in_parallel(feet.size(), [&](std::size_t v) { feet[v] = distance.nearest(shell.positions[v]); });
+  for (const auto& mask : parent.masks) shell.masks.emplace_back(mask.first, std::vector<float>());
+  for (const MeshPoint& at : feet) {
     const auto& t = parent.triangles[at.triangle];
     for (std::size_t m = 0; m < parent.masks.size(); m++) {
       double value = 0;
@@ -106,7 +109,7 @@ MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipp
   return out;
 }
 
-MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
+MeshData offset_by_distance_field(const MeshData& mesh, double d, double step, std::size_t* faulty) {
   const MeshTopology topology = mesh_topology(mesh);
   if (!topology.watertight())
     throw std::runtime_error("the mesh is not closed (" + std::to_string(topology.boundary_edges) + " open and " +
@@ -118,17 +121,15 @@ MeshData offset_by_distance_field(const MeshData& mesh, double d, double step) {
   const double edge = mean_edge(mesh);
   if (step <= 0) step = std::max(std::clamp(std::abs(d), 0.4 * edge, 0.8 * edge), length(hi - lo) / 500);
   MeshData out = shift_faces(mesh, d);
-  const ShellFaults faults = repair_shell(out, distance, d);
-  if (faults.flipped + faults.crossed + faults.off_vertices > 0 || faults.off_faces > kAcceptedFaults * static_cast<double>(out.triangles.size())) {
+  ShellFaults faults = repair_shell(out, distance, d);
+  const auto accepted = [&] { return faults.sum() == faults.off_faces && static_cast<double>(faults.off_faces) < kAccepted * static_cast<double>(out.triangles.size()); };
+  for (int i = 0; i < kFiner && !accepted(); i++, step *= 0.7) {
     MeshData level = distance_level(distance, lo, hi, d, step);
-    ShellFaults level_faults = shell_faults(level, distance, d);
-    MeshData mended = level;
-    if (const ShellFaults left = repair_shell(mended, distance, d, true); worse(level_faults, left)) level = std::move(mended), level_faults = left;
-    if (worse(faults, level_faults)) {
-      out = std::move(level);
-      inherit(out, mesh, distance);
-    }
+    const ShellFaults left = repair_shell(level, distance, d);
+    if (worse(faults, left)) out = std::move(level), faults = left;
   }
+  if (faulty) *faulty = faults.sum();
+  inherit(out, mesh, distance);
   if (out.triangles.empty()) throw std::runtime_error("nothing of the mesh is left at that distance");
   out.normals = vertex_normals(out);
   return out;

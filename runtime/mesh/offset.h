@@ -8,12 +8,16 @@ namespace stokes {
 /// `flipped` counts the faces whose normal then points the other way.
 MeshData offset_along_normals(const MeshData& mesh, double d, std::size_t* flipped);
 
-/// The surface at signed distance d from the mesh (negative: inside). Thin shells keep the mesh's connectivity, with a few more vertices in
-/// sharp creases; where that folds, crosses itself or leaves the distance, the level is cut anew from the exact distance on a grid of `step`
-/// (0: chosen from the mesh and d). Every vertex is within 5 % of the distance; faces that span a ridge of the level cut its corner. Faces
-/// that look against the distance's gradient at their middle, or cross, are left only in slivers thinner than a face is bent: one to ten in ten
-/// thousand where d is large for the mesh. Masks and uvs are those of the nearest points of the mesh. The mesh must be closed. Throws std::runtime_error when
-/// it is not, or when nothing is left at that distance.
-MeshData offset_by_distance_field(const MeshData& mesh, double d, double step = 0);
+/// The surface at signed distance d from the mesh (negative: inside). Promised, and checked on every shell that is made:
+/// - closed, every edge between two faces, and no face passes through another;
+/// - the distance to the mesh is within 5 % of |d| at every vertex and at every face's middle (and that of each edge that bends);
+/// - no face is flipped: the normal has a positive component along the distance's gradient at the face's middle, which points from the
+///   nearest point of the mesh (d > 0) or to it (d < 0).
+/// Where the mesh is thinner than 2 |d| it has no inner shell. First the mesh's own faces are shifted and mended (shell_repair.h), which keeps
+/// nearly all of its connectivity; where more than a few faces cannot be, the level is cut anew from the exact distance on a grid of `step`
+/// (0: chosen from the mesh and d) and mended; the better is returned. `faulty` counts the places where the promise could not be kept.
+/// Masks and uvs are those of the nearest points of the mesh. The mesh must be closed: throws std::runtime_error when it is not, or when
+/// nothing is left at that distance.
+MeshData offset_by_distance_field(const MeshData& mesh, double d, double step = 0, std::size_t* faulty = nullptr);
 
 }  // namespace stokes

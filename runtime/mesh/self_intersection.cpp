@@ -2,15 +2,16 @@
 #include "mesh/self_intersection.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace stokes {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Triangle = FaceGrid::Triangle;
+using Corners = std::array<Vec3d, 3>;
 
 // Whether the open segment p-q passes through the inside of the triangle.
-bool pierces(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c) {
+bool pierces(Vec3d p, Vec3d q, const Corners& t) {
+  const auto& [a, b, c] = t;
   const Vec3d n = cross(b - a, c - a);
   const double from = dot(p - a, n), to = dot(q - a, n);
   if (from * to >= 0) return false;
@@ -18,44 +19,85 @@ bool pierces(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c) {
   return dot(cross(b - a, x - a), n) > 0 && dot(cross(c - b, x - b), n) > 0 && dot(cross(a - c, x - c), n) > 0;
 }
 
-bool cross_each_other(const MeshData& mesh, const Triangle& s, const Triangle& t) {
-  for (const std::uint32_t v : s)
-    if (v == t[0] || v == t[1] || v == t[2]) return false;
-  const auto at = [&](const Triangle& f, int i) { return mesh.positions[f[i % 3]]; };
+// s and t are the faces' vertices, p and q where these are.
+bool cross_each_other(const Triangle& s, const Triangle& t, const Corners& p, const Corners& q) {
+  int shared = 0, of_s = 0, of_t = 0;
   for (int i = 0; i < 3; i++)
-    if (pierces(at(s, i), at(s, i + 1), at(t, 0), at(t, 1), at(t, 2)) || pierces(at(t, i), at(t, i + 1), at(s, 0), at(s, 1), at(s, 2))) return true;
+    for (int j = 0; j < 3; j++)
+      if (s[i] == t[j]) shared++, of_s = i, of_t = j;
+  if (shared > 1) return false;
+  // With one corner in common only the sides opposite to it can pass through the other face.
+  if (shared == 1) return pierces(p[(of_s + 1) % 3], p[(of_s + 2) % 3], q) || pierces(q[(of_t + 1) % 3], q[(of_t + 2) % 3], p);
+  for (int i = 0; i < 3; i++)
+    if (pierces(p[i], p[(i + 1) % 3], q) || pierces(q[i], q[(i + 1) % 3], p)) return true;
   return false;
 }
 
+Vec3d low(const Corners& p) { return min(p[0], min(p[1], p[2])); }
+Vec3d high(const Corners& p) { return max(p[0], max(p[1], p[2])); }
+
 }  // namespace
 
+FaceGrid::FaceGrid(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles, double size)
+    : positions_(positions), triangles_(triangles), size_(size) {
+  std::size_t buckets = 1024;
+  while (buckets < 2 * triangles.size()) buckets *= 2;
+  heads_.assign(buckets, -1);
+  nodes_.reserve(4 * triangles.size());
+}
+
+template <class Visit>
+void FaceGrid::visit_cells(Vec3d lo, Vec3d hi, const Visit& visit) const {
+  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size_)); };
+  for (std::int64_t i = cell(lo.x); i <= cell(hi.x); i++)
+    for (std::int64_t j = cell(lo.y); j <= cell(hi.y); j++)
+      for (std::int64_t k = cell(lo.z); k <= cell(hi.z); k++) {
+        const auto hash = static_cast<std::uint64_t>(i * 73856093 + j * 19349663 + k * 83492791) * 0x9E3779B97F4A7C15ull;
+        visit((hash >> 32) & (heads_.size() - 1));
+      }
+}
+
+void FaceGrid::insert(std::uint32_t f) {
+  const Triangle& t = triangles_[f];
+  const Corners p = {positions_[t[0]], positions_[t[1]], positions_[t[2]]};
+  visit_cells(low(p), high(p), [&](std::size_t bucket) {
+    nodes_.push_back({f, heads_[bucket]});
+    heads_[bucket] = static_cast<std::int32_t>(nodes_.size() - 1);
+  });
+}
+
+void FaceGrid::crossings(const Triangle& t, std::uint32_t vertex, Vec3d moved, const std::vector<std::uint32_t>& without,
+                         std::vector<std::uint32_t>& found) const {
+  const auto place = [&](std::uint32_t v) { return v == vertex ? moved : positions_[v]; };
+  const Corners p = {place(t[0]), place(t[1]), place(t[2])};
+  const Vec3d lo = low(p), hi = high(p);
+  visit_cells(lo, hi, [&](std::size_t bucket) {
+    for (std::int32_t n = heads_[bucket]; n >= 0; n = nodes_[n].next) {
+      const std::uint32_t f = nodes_[n].face;
+      const Triangle& u = triangles_[f];
+      if (u[0] == u[1]) continue;
+      const Corners q = {positions_[u[0]], positions_[u[1]], positions_[u[2]]};
+      const Vec3d a = low(q), b = high(q);
+      if (a.x > hi.x || b.x < lo.x || a.y > hi.y || b.y < lo.y || a.z > hi.z || b.z < lo.z) continue;
+      if (std::find(without.begin(), without.end(), f) != without.end() || std::find(found.begin(), found.end(), f) != found.end()) continue;
+      if (cross_each_other(t, u, p, q)) found.push_back(f);
+    }
+  });
+}
+
 std::vector<std::uint32_t> self_intersections(const MeshData& mesh) {
-  struct Box {
-    Vec3d lo, hi;
-  };
-  std::vector<Box> boxes;
   double size = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3d a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
-    boxes.push_back({min(a, min(b, c)), max(a, max(b, c))});
-    size += length(boxes.back().hi - boxes.back().lo) / static_cast<double>(mesh.triangles.size());
+    const Corners p = {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+    size += length(high(p) - low(p)) / static_cast<double>(mesh.triangles.size());
   }
-  const auto overlap = [&](const Box& a, const Box& b) {
-    return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
-  };
-  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size)); };
-  std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells;
+  FaceGrid grid(mesh.positions, mesh.triangles, size);
   std::vector<bool> hit(mesh.triangles.size());
   for (std::uint32_t f = 0; f < mesh.triangles.size(); f++) {
-    const Box& b = boxes[f];
-    for (std::int64_t i = cell(b.lo.x); i <= cell(b.hi.x); i++)
-      for (std::int64_t j = cell(b.lo.y); j <= cell(b.hi.y); j++)
-        for (std::int64_t k = cell(b.lo.z); k <= cell(b.hi.z); k++) {
-          std::vector<std::uint32_t>& others = cells[(i * 2000003 + j) * 2000003 + k];
-          for (const std::uint32_t g : others)
-            if (overlap(b, boxes[g]) && cross_each_other(mesh, mesh.triangles[f], mesh.triangles[g])) hit[f] = hit[g] = true;
-          others.push_back(f);
-        }
+    std::vector<std::uint32_t> crossed;
+    grid.crossings(mesh.triangles[f], ~0u, {}, {}, crossed);
+    for (const std::uint32_t g : crossed) hit[f] = hit[g] = true;
+    grid.insert(f);
   }
   std::vector<std::uint32_t> faces;
   for (std::uint32_t f = 0; f < hit.size(); f++)

@@ -114,10 +114,10 @@ void inherit_uvs(RawMesh& shell, const MeshData& moved, const RawMesh& parent, c
 
 }  // namespace
 
-RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world) {
+RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world, std::size_t* faulty) {
   MeshData world = positions_in_world(mesh, to_world);
   world.masks = mesh.masks;
-  MeshData moved = offset_by_distance_field(world, distance);
+  MeshData moved = offset_by_distance_field(world, distance, 0, faulty);
   std::vector<Vec3d> places = moved.positions;
   const Affine to_local = to_world.inverse();
   for (Vec3d& p : moved.positions) p = to_local.point(p);

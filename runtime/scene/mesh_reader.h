@@ -37,8 +37,8 @@ std::size_t drop_degenerate_faces(RawMesh& mesh);
 std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_world);
 
 /// The surface at signed `distance` (measured after `to_world`) from a closed mesh, with the masks and uvs of the nearest points. Throws
-/// std::runtime_error when the mesh is not closed or nothing is left.
-RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world);
+/// std::runtime_error when the mesh is not closed or nothing is left. `faulty` counts the places that are not as offset.h promises.
+RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world, std::size_t* faulty = nullptr);
 
 /// The faces of one material, with vertices of their own.
 MeshData extract_material(const RawMesh& mesh, int material);

@@ -126,7 +126,12 @@ RawMesh offset_mesh(ReadContext& context, const JsonObject& o, RawMesh& mesh, do
   if (by_distance_field) {
     if (mesh.materials.size() > 1) node.fail("a mesh of several materials has no offset by distance field");
     try {
-      return offset_surface(mesh, offset, to_world);
+      std::size_t faulty = 0;
+      RawMesh shell = offset_surface(mesh, offset, to_world, &faulty);
+      if (faulty > 0)
+        context.warn(node, std::to_string(faulty) + " places of the offset surface's " + std::to_string(shell.faces.size()) +
+                               " triangles are over 5 % off the distance, turned over or crossing");
+      return shell;
     } catch (const std::runtime_error& error) {
       node.fail(error.what());
     }
