@@ -61,10 +61,10 @@ STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax,
   }
   if (SCENE_HAS_SPHERES)
     for (int i = quads; i < spheres; i++)
-      keep_nearer(&hit, meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i)), i);
+      keep_nearer(&hit, meet_sphere(view->spheres + (i - quads), o, d, hit.t, exclude == integer(i), active), i);
   if (SCENE_HAS_ELLIPSOIDS)
     for (int i = spheres; i < ellipsoids; i++)
-      keep_nearer(&hit, meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, exclude == integer(i)), i);
+      keep_nearer(&hit, meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, hit.t, exclude == integer(i), active), i);
   hit.primitive = active ? hit.primitive : integer(-1);
   if (SCENE_HAS_TRIANGLES) closest_triangles(view, o, d, exclude, active, &hit);
   return hit;
@@ -117,12 +117,12 @@ STOKES_FN Mask occluded(const SceneView* view, Real3 o, Real3 d, Real tmax, Int 
   }
   if (SCENE_HAS_SPHERES)
     for (int i = quads; i < spheres; i++) {
-      const Real t = meet_sphere(view->spheres + (i - quads), o, d, exclude == integer(i));
+      const Real t = meet_sphere(view->spheres + (i - quads), o, d, tmax, exclude == integer(i), open);
       open = open & !((t > real(0.0f)) & (t < tmax));
     }
   if (SCENE_HAS_ELLIPSOIDS)
     for (int i = spheres; i < ellipsoids; i++) {
-      const Real t = meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, exclude == integer(i));
+      const Real t = meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, tmax, exclude == integer(i), open);
       open = open & !((t > real(0.0f)) & (t < tmax));
     }
   if (SCENE_HAS_TRIANGLES) open = open & !triangles_occlude(view, o, d, tmax, exclude, open);

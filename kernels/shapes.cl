@@ -38,13 +38,18 @@ STOKES_FN Real meet_quad(const __global Quad* quad, Real3 o, Real3 d) {
 /// The discriminant comes from the chord's distance to the centre, not from b^2 - c, and the smaller root from the larger
 /// (Haines, Guenther and Akenine-Moeller 2019). A ray that starts on the sphere, offset to its inside, meets the far side at the
 /// end of the chord, 2 b; offset to its outside it meets nothing.
-STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Mask on_it) {
+///
+/// The roots are left out where none of the lanes `asked` can have one in (0, tmax): they pass by, head away from outside, or end before.
+STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Real tmax, Mask on_it, Mask asked) {
   const Real b = -dot3(o, d);
   const Real3 chord = madd3(o, d, b);
-  const Real distance = sqrt_real(dot3(chord, chord));
+  const Real distance2 = dot3(chord, chord), from2 = dot3(o, o), reach = radius * real(1.00001f), reach2 = reach * reach;
+  const Mask towards = (distance2 <= reach2) & ((b > real(0.0f)) | (from2 <= reach2)) & (b - reach < tmax * real(1.00001f));
+  if (!any(asked & (on_it | towards))) return real(0.0f);
+  const Real distance = sqrt_real(distance2);
   const Real discriminant = (radius - distance) * (radius + distance);
   const Real q = b + copysign_real(safe_sqrt(discriminant), b);
-  const Real m = sqrt_real(dot3(o, o));
+  const Real m = sqrt_real(from2);
   const Real c = (m - radius) * (m + radius);
   const Real other = c / q;
   const Real first = min_real(q, other), last = max_real(q, other);
@@ -55,9 +60,9 @@ STOKES_FN Real meet_centred_sphere(Real3 o, Real3 d, Real radius, Mask on_it) {
   return met ? t : real(0.0f);
 }
 
-STOKES_FN Real meet_sphere(const __global Sphere* sphere, Real3 o, Real3 d, Mask on_it) {
+STOKES_FN Real meet_sphere(const __global Sphere* sphere, Real3 o, Real3 d, Real tmax, Mask on_it, Mask asked) {
   const Vec3 c = sphere->center;
-  return meet_centred_sphere(real3(o.x - c.x, o.y - c.y, o.z - c.z), d, real(sphere->radius), on_it);
+  return meet_centred_sphere(real3(o.x - c.x, o.y - c.y, o.z - c.z), d, real(sphere->radius), tmax, on_it, asked);
 }
 
 /// Rows 0 to 2 of a 3x4 matrix times (p, w).
@@ -67,10 +72,10 @@ STOKES_FN Real3 transform3x4(const __global float* m, Real3 p, float w) {
                fma(p.x, real(m[8]), fma(p.y, real(m[9]), fma(p.z, real(m[10]), real(m[11] * w)))));
 }
 
-STOKES_FN Real meet_ellipsoid(const __global Ellipsoid* ellipsoid, Real3 o, Real3 d, Mask on_it) {
+STOKES_FN Real meet_ellipsoid(const __global Ellipsoid* ellipsoid, Real3 o, Real3 d, Real tmax, Mask on_it, Mask asked) {
   const Real3 inner_d = transform3x4(ellipsoid->to_local, d, 0.0f);
-  const Real inv_length = real(1.0f) / sqrt_real(dot3(inner_d, inner_d));
-  return meet_centred_sphere(transform3x4(ellipsoid->to_local, o, 1.0f), scale3(inner_d, inv_length), real(1.0f), on_it) *
+  const Real length = sqrt_real(dot3(inner_d, inner_d)), inv_length = real(1.0f) / length;
+  return meet_centred_sphere(transform3x4(ellipsoid->to_local, o, 1.0f), scale3(inner_d, inv_length), real(1.0f), tmax * length, on_it, asked) *
          inv_length;
 }
 #endif
