@@ -12,7 +12,8 @@ typedef struct {
   PathState waiting;
   uint waiting_pixel[LANES];
   uint next, made;
-  uint lane_pixel[LANES];  // for which a lane works; STOKES_NONE: it is idle
+  uint lane_pixel[LANES];  // for which a lane works; STOKES_NONE: none
+  Mask idle;               // lanes for which no path was left
 } PathQueue;
 
 STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
@@ -27,6 +28,7 @@ STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
   q.y = launch->crop_y + q.pixel / width;
   q.sample = launch->sample_begin;
   q.next = q.made = 0u;
+  q.idle = no_lanes();
   for (int j = 0; j < LANES; j++) q.lane_pixel[j] = STOKES_NONE;
   return q;
 }
@@ -82,22 +84,29 @@ STOKES_FN void film_samples(const PathState* path, FilmSamples* s) {
   }
 }
 
+/// Whether a lane's path has ended whose sample the film has not got yet.
+STOKES_FN int has_ended_paths(const PathQueue* q, const PathState* path) { return any(!path->alive & !q->idle); }
+
 /// Hands the ended lanes' samples to the film and starts the next paths in them.
 STOKES_FN void refill(const SceneView* view, const __global Launch* launch, PathQueue* q, PathState* path, __global long* film, Counters* counters) {
   FilmSamples samples;
   film_samples(path, &samples);
-  uint fresh = 0u;
-  for (uint ended = lane_bits(!path->alive); ended != 0u; ended &= ended - 1u) {
+  uint fresh = 0u, idle = 0u;
+  for (uint ended = lane_bits(!path->alive & !q->idle); ended != 0u; ended &= ended - 1u) {
     const uint j = lowest_lane(ended);
     if (q->lane_pixel[j] != STOKES_NONE) film_add(view, film + (ulong)q->lane_pixel[j] * view->scene->film_stride, &samples, j);
     q->lane_pixel[j] = STOKES_NONE;
     if (LANES == 1 || q->next == q->made) queue_make_paths(view, q, launch, counters);
-    if (q->made == 0u) continue;
+    if (q->made == 0u) {
+      idle |= 1u << j;
+      continue;
+    }
     q->lane_pixel[j] = q->waiting_pixel[q->next];
     path_take(path, &q->waiting, q->next, lane_mask(1u << j));
     q->next++;
     fresh |= 1u << j;
   }
+  q->idle = q->idle | lane_mask(idle);
   if (fresh == 0u) return;
   counters->count[COUNTER_PATHS] += popcount(fresh);
   path_reset(path, lane_mask(fresh));

@@ -71,7 +71,7 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
   PathState path = path_none();
   for (;;) {
     // Ended paths tell the film what they found; the next ones take their lanes.
-    if (any(!path.alive)) {
+    if (has_ended_paths(queue, &path)) {
       refill(view, launch, queue, &path, film, counters);
       if (!any(path.alive)) return;
     }
