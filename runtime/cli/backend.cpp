@@ -58,6 +58,8 @@ std::unique_ptr<Backend> make_backend(const CompiledScene& scene, const DeviceCh
   DeviceOptions device_options;
   device_options.threads = options.threads;
   device_options.kernel_dir = options.kernel_dir;
+  device_options.optimise = options.optimise;
+  device_options.use_cache = options.use_cache;
   return std::make_unique<OpenClBackend>(scene, choice.info, device_options);
 }
 

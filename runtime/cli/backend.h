@@ -25,6 +25,7 @@ DeviceChoice find_backend(const std::string& spec, std::uint64_t need_bytes = 0)
 struct BackendOptions {
   int threads = 0;  ///< 0: all
   std::string kernel_dir;
+  bool optimise = true, use_cache = true;  ///< as in DeviceOptions
 };
 
 struct BackendProgress {

@@ -11,8 +11,10 @@ namespace stokes {
 namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
+const std::atomic<int>* others_stops = nullptr;
 
 void install(void (*handler)(int)) {
+  if (others_stops) return;
   struct sigaction action = {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART | SA_NODEFER;
@@ -40,6 +42,8 @@ void exit_on_interrupt() { install(end_at_once); }
 
 void catch_interrupts() { install(request_stop); }
 
-bool interrupted() { return stop_requested != 0; }
+void take_interrupts_from(const std::atomic<int>& stops) { others_stops = &stops; }
+
+bool interrupted() { return stop_requested != 0 || (others_stops && *others_stops > 0); }
 
 }  // namespace stokes

@@ -1,5 +1,6 @@
 // Ctrl-C and SIGTERM: before the first sample they end the process; then the first is a request to stop, the second ends at once.
 #pragma once
+#include <atomic>
 
 namespace stokes {
 
@@ -7,6 +8,8 @@ namespace stokes {
 void exit_on_interrupt();
 /// From now on the first of them only sets a flag; any second one ends the process by the signal.
 void catch_interrupts();
+/// From now on signals are another process's affair: the two functions above do nothing, and a count above 0 is the request to stop.
+void take_interrupts_from(const std::atomic<int>& stops);
 bool interrupted();
 
 }  // namespace stokes

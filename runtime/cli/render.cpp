@@ -14,7 +14,10 @@
 #include "cli/outputs.h"
 #include "cli/render_job.h"
 #include "cli/scene_options.h"
+#include "cli/supervisor.h"
 #include "cli/version.h"
+#include "device/driver_cache.h"
+#include "device/error.h"
 #include "image/error.h"
 #include "image/replace_file.h"
 
@@ -28,14 +31,17 @@ struct RenderOptions {
   OutputOptions output;
   std::string crop, max_time, aov, spectral, samples, checkpoint;
   std::string progress = "auto";
+  std::string launch_timeout = "60s";
   bool resume = false, restart = false, json = false, quiet = false, stats = false;
 };
+
+constexpr double kCheckpointSeconds = 60, kCheckpointShare = 0.05;
 
 /// What the text of the options means, checked before any work is done.
 struct Plan {
   AovChoice aovs;
   SpectralBins bins;
-  double max_seconds = 0, checkpoint_seconds = 0;
+  double max_seconds = 0, checkpoint_seconds = kCheckpointSeconds, launch_seconds = 0;
   ProgressMode progress = ProgressMode::Auto;
   std::string checkpoint_path;
 };
@@ -55,7 +61,8 @@ Plan make_plan(RenderOptions& o) {
   if (!o.aov.empty()) plan.aovs = parse_aovs(o.aov);
   if (!o.spectral.empty()) plan.bins = parse_spectral(o.spectral);
   if (!o.max_time.empty()) plan.max_seconds = parse_duration("--max-time", o.max_time);
-  if (!o.checkpoint.empty()) plan.checkpoint_seconds = parse_duration("--checkpoint", o.checkpoint);
+  if (!o.checkpoint.empty()) plan.checkpoint_seconds = o.checkpoint == "none" ? 0 : parse_duration("--checkpoint", o.checkpoint);
+  plan.launch_seconds = parse_duration("--launch-timeout", o.launch_timeout);
   if (!o.scene_options.size.empty()) parse_size(o.scene_options.size);
   if (!o.scene_options.integrator.empty()) parse_integrator(o.scene_options.integrator);
   for (const std::string& setting : o.scene_options.settings) parse_setting(setting);
@@ -93,7 +100,7 @@ FilmRecord empty_record(const RenderOptions& o, const LoadedScene& scene) {
 }
 
 /// Continues from the checkpoint where --resume asks for it. Foreign and damaged ones are refused.
-void adopt_checkpoint(const RenderOptions& o, const Plan& plan, int sample_end, FilmRecord& record) {
+void adopt_checkpoint(const RenderOptions& o, Plan& plan, int sample_end, FilmRecord& record) {
   const std::string& path = plan.checkpoint_path;
   if (!fs::exists(path)) {
     if (o.resume) say(o, "there is no " + path + " yet: starting with the first sample");
@@ -101,9 +108,10 @@ void adopt_checkpoint(const RenderOptions& o, const Plan& plan, int sample_end, 
   }
   if (o.restart) return;
   if (!o.resume) {
-    if (plan.checkpoint_seconds > 0)
+    if (!o.checkpoint.empty() && plan.checkpoint_seconds > 0)
       throw UsageError("--checkpoint: " + path + " exists already; --resume continues it, --restart begins anew");
-    say(o, "note: " + path + " is left alone; --resume would continue it");
+    say(o, "note: " + path + " is left alone, and no other is written; --resume would continue it, --restart replace it");
+    plan.checkpoint_seconds = 0;
     return;
   }
   FilmRecord found = read_film(path);
@@ -166,9 +174,10 @@ void print_statistics(const FilmRecord& r, const Timing& timing) {
   line("scatters  ", r.scatterings);
 }
 
-std::unique_ptr<Backend> prepare(const RenderOptions& o, const LoadedScene& scene, Timing& timing) {
+std::unique_ptr<Backend> prepare(const RenderOptions& o, const LoadedScene& scene, const WorkerAttempt& attempt, Timing& timing) {
+  enter_stage(WorkStage::Building);
   if (!scene.device.reference) say(o, "preparing kernels for " + scene.device.name() + " ...");
-  auto backend = make_backend(scene.compiled, scene.device, {o.scene_options.threads, o.scene_options.kernel_dir});
+  auto backend = make_backend(scene.compiled, scene.device, {o.scene_options.threads, o.scene_options.kernel_dir, attempt.optimise, !attempt.empty_caches});
   timing.load = scene.load_seconds;
   timing.build = backend->build_seconds();
   char text[64];
@@ -206,10 +215,24 @@ int conclude(const RenderOptions& o, const Plan& plan, const RenderJob& job, Ren
   return kExitInternal;
 }
 
-int run_render(RenderOptions o) {
-  const Plan plan = make_plan(o);
-  require_writable(o.output.path);
-  if (o.output.png) require_writable(png_beside(o.output.path));
+/// The samples, with a word about the checkpoint when the device fails.
+RenderEnd render_samples(RenderJob& job, const Plan& plan, const bool& checkpoint_is_ours) {
+  enter_stage(WorkStage::Rendering);
+  try {
+    const RenderEnd end = run_job(job);
+    job.progress->finish();
+    enter_stage(WorkStage::Writing);
+    return end;
+  } catch (const DeviceError& e) {
+    job.progress->finish();
+    if (!checkpoint_is_ours) throw;
+    throw DeviceError(std::string(e.what()) + "; " + plan.checkpoint_path + " holds what was done by then, --resume continues it", e.out_of_memory());
+  }
+}
+
+int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
+  if (attempt.resume) o.resume = true, o.restart = false;
+  if (attempt.empty_caches) isolate_driver_cache(DriverCachePlace::Temporary);
   exit_on_interrupt();
 
   const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
@@ -220,7 +243,7 @@ int run_render(RenderOptions o) {
   bool checkpoint_is_ours = job.record.sample_end > job.record.sample_begin;
 
   Timing timing;
-  const std::unique_ptr<Backend> backend = prepare(o, scene, timing);
+  const std::unique_ptr<Backend> backend = prepare(o, scene, attempt, timing);
   const std::uint64_t pixels = static_cast<std::uint64_t>(job.record.film.width) * static_cast<std::uint64_t>(job.record.film.height);
   const int all = job.sample_end - job.record.sample_begin, already = job.record.sample_end - job.record.sample_begin;
   ProgressReport progress(plan.progress, pixels * static_cast<std::uint64_t>(all), pixels * static_cast<std::uint64_t>(already), all);
@@ -228,14 +251,27 @@ int run_render(RenderOptions o) {
   job.progress = &progress;
   job.max_seconds = plan.max_seconds;
   job.checkpoint_seconds = plan.checkpoint_seconds;
+  if (o.checkpoint.empty()) job.checkpoint_share = kCheckpointShare;
   job.save_checkpoint = [&](const FilmRecord& record) {
+    enter_stage(WorkStage::Writing);
     write_film(plan.checkpoint_path, record);
     checkpoint_is_ours = true;
+    tell_checkpoint_saved();
+    enter_stage(WorkStage::Rendering);
   };
   catch_interrupts();
-  const RenderEnd end = run_job(job);
-  progress.finish();
+  const RenderEnd end = render_samples(job, plan, checkpoint_is_ours);
   return conclude(o, plan, job, end, timing, checkpoint_is_ours);
+}
+
+int run_render(RenderOptions o) {
+  const Plan plan = make_plan(o);
+  require_writable(o.output.path);
+  if (o.output.png) require_writable(png_beside(o.output.path));
+  require_writable(plan.checkpoint_path);
+  // The reference has no driver that could crash or hang.
+  if (o.scene_options.device == "reference") return render_scene(o, plan, {});
+  return supervise({plan.launch_seconds, plan.checkpoint_path, o.quiet}, [&](const WorkerAttempt& attempt) { return render_scene(o, plan, attempt); });
 }
 
 }  // namespace
@@ -253,7 +289,8 @@ Command add_render(CLI::App& root) {
   app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
   app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
   app->add_option("--samples", o->samples, "a:b: only these samples of every pixel, as a part for `stokes merge` [all]");
-  app->add_option("--checkpoint", o->checkpoint, "Save OUT.checkpoint this often (60s) [only when interrupted]");
+  app->add_option("--launch-timeout", o->launch_timeout, "Give up a device that is silent so much longer than before")->capture_default_str();
+  app->add_option("--checkpoint", o->checkpoint, "Save OUT.checkpoint this often (60s), or none [60s; with a large film seldomer]");
   CLI::Option* resume = app->add_flag("--resume", o->resume, "Continue from OUT.checkpoint where there is one");
   app->add_flag("--restart", o->restart, "Begin anew, whatever checkpoint there is")->excludes(resume);
   app->add_option("--progress", o->progress, "auto, plain, json or none")->capture_default_str()->check(CLI::IsMember({"auto", "plain", "json", "none"}));

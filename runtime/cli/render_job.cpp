@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "cli/interrupt.h"
+#include "cli/supervisor.h"
 
 namespace stokes {
 namespace {
@@ -43,6 +44,7 @@ RenderEnd run_job(RenderJob& job) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(record.film.width) * static_cast<std::uint64_t>(record.film.height);
   const int first = record.sample_end;
   const Tally tally(record, *job.backend);
+  double saving = 0;  // seconds that the last checkpoint took
   while (record.sample_end < job.sample_end) {
     // A call ends at the job's end, or early: interrupted, or at the end of a pass, out of time or because a checkpoint is due.
     const int call_begin = record.sample_end;
@@ -50,20 +52,24 @@ RenderEnd run_job(RenderJob& job) {
     bool time_up = false;
     record.sample_end = job.backend->render(record.film, record.identity.seed, call_begin, job.sample_end, [&](const BackendProgress& p) {
       const std::uint64_t done = static_cast<std::uint64_t>(call_begin - first) * pixels + p.samples_done;
+      tell_alive();
       if (job.progress) job.progress->update(done, p.counters.rays + p.counters.shadow_rays);
       if (interrupted()) return false;
       if (p.samples_done % pixels != 0) return true;
       // The next pass will take about as long as those before: the limit is a promise.
       const double next_pass = tally.elapsed() * static_cast<double>(pixels) / static_cast<double>(std::max<std::uint64_t>(1, done));
       time_up = job.max_seconds > 0 && tally.elapsed() + next_pass > job.max_seconds;
-      const bool save = job.checkpoint_seconds > 0 && since(call_start) >= job.checkpoint_seconds;
+      const bool save = job.checkpoint_seconds > 0 && since(call_start) >= std::max(job.checkpoint_seconds, saving / job.checkpoint_share);
       return !time_up && !save;
     });
     tally.settle(record, *job.backend);
     if (record.sample_end >= job.sample_end) break;
     if (interrupted()) return RenderEnd::Interrupted;
     if (time_up) return RenderEnd::TimeUp;
-    if (job.save_checkpoint && job.checkpoint_seconds > 0) job.save_checkpoint(record);
+    if (!job.save_checkpoint || job.checkpoint_seconds <= 0) continue;
+    const Clock::time_point save_start = Clock::now();
+    job.save_checkpoint(record);
+    saving = since(save_start);
   }
   tally.settle(record, *job.backend);
   return RenderEnd::Complete;
@@ -79,6 +85,7 @@ std::string describe_invalid(const FilmRecord& record, Backend& backend) {
     Film one = make_film(f.full_width, f.full_height, totals.first_invalid_x, totals.first_invalid_y, 1, 1, f.channels, f.spectral_bins,
                          f.spectral_begin, f.spectral_end, f.quantum, f.depth_quantum);
     backend.render(one, record.identity.seed, sample, sample + 1, [](const BackendProgress&) { return true; });
+    tell_alive();
     if (film_totals(one).invalid > 0) return text + ", sample " + std::to_string(sample);
   }
   return text;

@@ -16,6 +16,7 @@ struct RenderJob {
   int sample_end = 0;  ///< where to stop
   double max_seconds = 0;         ///< 0: no limit; at least one pass is rendered
   double checkpoint_seconds = 0;  ///< 0: none
+  double checkpoint_share = 1;    ///< no more than this share of the time goes into saving
   std::function<void(const FilmRecord&)> save_checkpoint;
   ProgressReport* progress = nullptr;
 };

@@ -42,9 +42,15 @@ std::string error_name(cl_int code) {
   return "OpenCL code " + std::to_string(code);
 }
 
-void throw_device_error(const cl::Error& error, const std::string& device) {
-  const bool out_of_memory = error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE || error.err() == CL_OUT_OF_HOST_MEMORY;
-  throw DeviceError(std::string(error.what()) + " failed with " + error_name(error.err()) + " on " + device, out_of_memory);
+bool is_out_of_memory(cl_int code) { return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY; }
+
+void throw_device_error(const cl::Error& error, const std::string& device, std::uint64_t need_bytes, std::uint64_t have_bytes) {
+  const bool out_of_memory = is_out_of_memory(error.err());
+  const std::string call = std::string(error.what()) + " failed with " + error_name(error.err()) + " on " + device;
+  const auto mebibytes = [](std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; };
+  if (out_of_memory && need_bytes > 0 && have_bytes > 0)
+    throw DeviceError("out of memory: need " + mebibytes(need_bytes) + ", the device has " + mebibytes(have_bytes) + " in all: " + call, true);
+  throw DeviceError(call, out_of_memory);
 }
 
 }  // namespace stokes

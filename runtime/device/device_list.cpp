@@ -7,12 +7,14 @@
 #include <optional>
 
 #include "device/calls.h"
+#include "device/driver_cache.h"
 
 namespace stokes {
 
 namespace {
 
 std::vector<cl::Platform> list_platforms() {
+  isolate_driver_cache();
   // The loader answers "not found" where no platform is installed; to us that is an empty list.
   std::vector<cl::Platform> platforms;
   try {

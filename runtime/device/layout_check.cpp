@@ -44,7 +44,7 @@ std::vector<cl_uint> run_probe(const DeviceInfo& info, const std::string& source
   return checked(describe_device(info), [&] {
     const cl::Context context(device);
     const cl::CommandQueue queue(context, device);
-    const BuiltProgram built = build_program(context, device, info, source, true);
+    const BuiltProgram built = build_program(context, device, info, source, {});
     const cl::Buffer out(context, CL_MEM_READ_WRITE, count * sizeof(cl_uint)), base(context, CL_MEM_READ_WRITE, 4096);
     cl::Kernel kernel(built.program, "probe_layout");
     kernel.setArg(0, out);

@@ -94,11 +94,11 @@ std::string build_options(const cl::Device& device, bool optimise) {
   return options;
 }
 
-BuiltProgram build_program(const cl::Context& context, const cl::Device& device, const DeviceInfo& info, const std::string& source, bool optimise) {
+BuiltProgram build_program(const cl::Context& context, const cl::Device& device, const DeviceInfo& info, const std::string& source, BuildChoices choices) {
   BuiltProgram built;
-  const std::string options = build_options(device, optimise);
+  const std::string options = build_options(device, choices.optimise);
   built.cache_key = device_key(info) + options + "\n" + source;
-  built.program = load_cached(context, device, built.cache_key, options);
+  if (choices.use_cache) built.program = load_cached(context, device, built.cache_key, options);
   built.from_cache = built.program() != nullptr;
   if (built.from_cache) return built;
 

@@ -20,9 +20,14 @@ struct BuiltProgram {
 /// Never fast math: images would differ between devices, and it was measured to gain nothing.
 std::string build_options(const cl::Device& device, bool optimise);
 
+struct BuildChoices {
+  bool optimise = true;
+  bool use_cache = true;
+};
+
 /// Takes the program from the cache or builds it. A failed build is tried once more without optimisation before it is an error.
 /// Throws KernelBuildError with the first attempt's log.
-BuiltProgram build_program(const cl::Context& context, const cl::Device& device, const DeviceInfo& info, const std::string& source, bool optimise);
+BuiltProgram build_program(const cl::Context& context, const cl::Device& device, const DeviceInfo& info, const std::string& source, BuildChoices choices);
 
 /// Writes the program's binary to the cache. To be called after the first enqueue: PoCL compiles only then, and a binary fetched
 /// earlier would save nothing.

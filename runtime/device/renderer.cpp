@@ -87,6 +87,7 @@ struct Renderer::State {
 
   State(const CompiledScene& scene, const DeviceInfo& device, const DeviceOptions& options);
   void build(const CompiledScene& scene, const DeviceOptions& options);
+  void build_and_try(const std::string& source, BuildChoices choices);
   void set_arguments();
   void enqueue(const layout::Launch& launch);
   void prepare_film(const Film& film);
@@ -122,7 +123,29 @@ void Renderer::State::build(const CompiledScene& scene, const DeviceOptions& opt
   const Clock::time_point start = Clock::now();
   const std::string constants = build_constants(scene, {lanes, probe_x86(device, info)});
   const KernelFiles files = options.kernel_dir.empty() ? embedded_kernels() : read_kernel_dir(options.kernel_dir);
-  const BuiltProgram built = build_program(context, device, info, assemble_program(files, "render.cl", constants), options.optimise);
+  const std::string source = assemble_program(files, "render.cl", constants);
+  // The compiler is at work in the first launch too, and a cached binary may be whole and yet of no use: what fails then is built again.
+  std::vector<BuildChoices> ways = {{options.optimise, options.use_cache}};
+  if (options.use_cache) ways.push_back({options.optimise, false});
+  if (options.optimise) ways.push_back({false, false});
+  for (std::size_t way = 0;; way++) {
+    try {
+      build_and_try(source, ways[way]);
+      if (options.optimise && !ways[way].optimise)
+        warnings.push_back("the first launch failed on " + name + " until the kernels were built without optimisation; rendering will be slow");
+      break;
+    } catch (const cl::Error& error) {
+      const std::string call = error.what();
+      const bool launch = call == "clEnqueueNDRangeKernel" || call == "clFinish";
+      if (way + 1 == ways.size() || !launch || is_out_of_memory(error.err())) throw;
+      queue = cl::CommandQueue(context, device);
+    }
+  }
+  build_seconds = seconds_since(start);
+}
+
+void Renderer::State::build_and_try(const std::string& source, BuildChoices choices) {
+  const BuiltProgram built = build_program(context, device, info, source, choices);
   if (!built.warning.empty()) warnings.push_back(built.warning);
   kernel = cl::Kernel(built.program, "render");
   set_arguments();
@@ -130,7 +153,6 @@ void Renderer::State::build(const CompiledScene& scene, const DeviceOptions& opt
   enqueue(layout::Launch{});
   queue.finish();
   store_program(built);
-  build_seconds = seconds_since(start);
 }
 
 void Renderer::State::set_arguments() {
@@ -198,7 +220,8 @@ Film Renderer::State::read_film(const cl::Buffer& buffer, const Film& shape) con
 }
 
 Renderer::Renderer(const CompiledScene& scene, const DeviceInfo& device, const DeviceOptions& options)
-    : state_(checked(describe_device(device), [&] { return std::make_unique<State>(scene, device, options); })) {}
+    : state_(checked(describe_device(device), [&] { return std::make_unique<State>(scene, device, options); },
+                     stokes::scene_bytes(scene), device.memory_bytes)) {}
 
 Renderer::~Renderer() = default;
 
@@ -257,7 +280,7 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
     }
     state.read_counters();
     return static_cast<int>(samples_end);
-  });
+  }, state.scene_bytes + film.words.size() * sizeof(std::int64_t), state.info.memory_bytes);
 }
 
 const RenderCounters& Renderer::counters() const { return state_->counters; }

@@ -50,6 +50,7 @@ struct DeviceOptions {
   int threads = 0;            ///< CPU devices: at most so many (0: all)
   std::string kernel_dir;     ///< read kernels from here instead of the embedded ones
   bool optimise = true;
+  bool use_cache = true;      ///< false: kernels are built anew, whatever the cache holds
 };
 
 class Renderer {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <string>
 
 #include "device/error.h"
@@ -31,20 +30,20 @@ std::size_t padded(std::size_t bytes) {
   return std::max<std::size_t>(1, (bytes + kAlignment - 1) / kAlignment) * kAlignment;
 }
 
+std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
+
 // Zeroed memory in 2 MiB pages where the system has them.
 std::shared_ptr<void> allocate_large_pages(std::size_t bytes) {
   constexpr std::size_t kPage = std::size_t(2) << 20;
   const std::size_t size = (bytes + kPage - 1) / kPage * kPage;
   std::shared_ptr<void> memory(std::aligned_alloc(kPage, size), std::free);
-  if (!memory) throw std::bad_alloc();
+  if (!memory) throw DeviceError("out of memory: need " + mebibytes(size) + " of host memory for the scene", true);
 #ifdef MADV_HUGEPAGE
   madvise(memory.get(), size, MADV_HUGEPAGE);  // a wish; without it the memory is merely slower
 #endif
   std::memset(memory.get(), 0, bytes);
   return memory;
 }
-
-std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
 
 }  // namespace
 

@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 #include "image/error.h"
 
@@ -17,6 +20,8 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const std::string& path, const std::string& cause) {
   throw OutputError(path + ": cannot be written: " + cause);
 }
+
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
 /// The file that will really be replaced, and the checks that need no writing.
 fs::path resolve_target(const std::string& path) {
@@ -30,14 +35,44 @@ fs::path resolve_target(const std::string& path) {
   const fs::file_status status = fs::status(target, ec);
   if (fs::is_directory(status)) fail(path, "it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "it is not a regular file");
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, ec)) fail(path, "there is no folder " + folder.string());
   return target;
 }
 
+/// What the names of a target's temporary files begin with on this machine; the process's number and kEnding follow.
+std::string temporary_stem(const fs::path& target) {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  return "." + target.filename().string() + "." + host + "-";
+}
+
+constexpr char kEnding[] = ".tmp";
+
 fs::path temporary_beside(const fs::path& target) {
-  const std::string name = "." + target.filename().string() + "." + std::to_string(::getpid()) + ".tmp";
-  return target.has_parent_path() ? target.parent_path() / name : fs::path(name);
+  return (folder_of(target) / (temporary_stem(target) + std::to_string(::getpid()) + kEnding)).lexically_normal();
+}
+
+/// Whether a process has ended, though its parent may not have looked yet.
+bool has_ended(int process) {
+  if (::kill(process, 0) != 0 && errno == ESRCH) return true;
+  char byte;
+  const bool no_program = ::readlink(("/proc/" + std::to_string(process) + "/exe").c_str(), &byte, 1) < 0 && errno == ENOENT;
+  return no_program && ::readlink("/proc/self/exe", &byte, 1) > 0;
+}
+
+/// Removes the target's temporary files that were left by processes of this machine that are no more.
+void remove_stale_temporaries(const fs::path& target) {
+  const std::string stem = temporary_stem(target);
+  std::vector<fs::path> stale;
+  std::error_code ec;
+  for (fs::directory_iterator i(folder_of(target), ec), end; !ec && i != end; i.increment(ec)) {
+    const std::string name = i->path().filename().string();
+    if (name.compare(0, stem.size(), stem) != 0 || i->path().extension() != kEnding) continue;
+    const int process = std::atoi(name.c_str() + stem.size());
+    if (process > 0 && has_ended(process)) stale.push_back(i->path());
+  }
+  for (const fs::path& file : stale) fs::remove(file, ec);
 }
 
 void sync(const fs::path& file, int flags, bool required, const std::string& path) {
@@ -53,6 +88,7 @@ void sync(const fs::path& file, int flags, bool required, const std::string& pat
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
   const fs::path target = resolve_target(path), temporary = temporary_beside(target);
   std::error_code ec;
+  remove_stale_temporaries(target);
   try {
     write(temporary.string());
     sync(temporary, O_WRONLY | O_CLOEXEC, true, path);
@@ -65,11 +101,12 @@ void replace_file(const std::string& path, const std::function<void(const std::s
     fail(path, e.what());
   }
   // The rename itself reaches the disk with the folder; some file systems refuse this, and the file is whole either way.
-  sync(target.has_parent_path() ? target.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY | O_CLOEXEC, false, path);
+  sync(folder_of(target), O_RDONLY | O_DIRECTORY | O_CLOEXEC, false, path);
 }
 
 void require_writable(const std::string& path) {
-  const fs::path temporary = temporary_beside(resolve_target(path));
+  const fs::path target = resolve_target(path), temporary = temporary_beside(target);
+  remove_stale_temporaries(target);
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (fd < 0) fail(path, std::strerror(errno));
   ::close(fd);

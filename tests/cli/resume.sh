@@ -6,10 +6,10 @@ device=${2:-reference}
 long() {
   "$STOKES" render "$FIXTURES/small.json" --device "$device" -q "$@"
 }
-# Waits until a file stands, for at most a minute.
+# Waits until a file stands, for at most five minutes.
 await() {
   tries=0
-  until [ -e "$1" ] || [ $tries -ge 600 ]; do
+  until [ -e "$1" ] || [ $tries -ge 3000 ]; do
     sleep 0.1
     tries=$((tries + 1))
   done

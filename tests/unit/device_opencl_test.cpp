@@ -201,7 +201,7 @@ TEST_F(DeviceTest, TheSecondBuildComesFromTheCacheAndADamagedOneIsRebuilt) {
   const cl::Context context(device);
   const std::string source = "__kernel void f(__global int* x) { x[0] = 7; }\n";
   const auto build_and_run = [&] {
-    const BuiltProgram built = build_program(context, device, info, source, true);
+    const BuiltProgram built = build_program(context, device, info, source, {});
     cl::CommandQueue queue(context, device);
     cl::Buffer out(context, CL_MEM_READ_WRITE, 4);
     cl::Kernel kernel(built.program, "f");
@@ -221,7 +221,7 @@ TEST_F(DeviceTest, TheSecondBuildComesFromTheCacheAndADamagedOneIsRebuilt) {
   EXPECT_TRUE(build_and_run());
   // Sound on disk, but no program: the driver refuses it and the source is built (but Rusticl ends the process).
   if (info.platform_name == "rusticl") return;
-  const BuiltProgram built = build_program(context, device, info, source, true);
+  const BuiltProgram built = build_program(context, device, info, source, {});
   write_cached(cache_folder(), built.cache_key, "no program");
   EXPECT_FALSE(build_and_run());
 }
