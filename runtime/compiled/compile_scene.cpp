@@ -22,6 +22,7 @@ void check_unused(const Compilation& c) {
 
 CompiledScene compile_scene(const SceneDescription& scene, const CompileOptions& options) {
   Compilation c(scene, options);
+  c.out.header = {};  // the scene's hash covers also what a scene leaves unused, such as rooms
   c.out.features.rgb = c.spectra.rgb();
   c.out.warnings = scene.warnings;
 
