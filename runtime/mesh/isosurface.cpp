@@ -5,6 +5,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "mesh/self_intersection.h"
+
 namespace stokes {
 namespace {
 
@@ -122,6 +124,19 @@ void relax(MeshData& mesh, const Field& field, double level, double step) {
   }
 }
 
+// Where evened faces pass through one another, which they do where the field is thinner than the grid, their vertices return to where they
+// were cut: there every face stays in its own cube.
+void take_back(MeshData& mesh, const std::vector<Vec3d>& cut) {
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const std::uint32_t f : self_intersections(mesh))
+      for (const std::uint32_t v : mesh.triangles[f]) {
+        moved |= length_squared(mesh.positions[v] - cut[v]) > 0;
+        mesh.positions[v] = cut[v];
+      }
+  }
+}
+
 }  // namespace
 
 MeshData isosurface(const Grid& g, double level, const Field* refine, bool even) {
@@ -162,7 +177,9 @@ MeshData isosurface(const Grid& g, double level, const Field* refine, bool even)
         }
       }
   if (!refine || !even) return mesh;
+  const std::vector<Vec3d> cut = mesh.positions;
   relax(mesh, *refine, level, g.step);
+  take_back(mesh, cut);
   for (const Vec3d& p : mesh.positions) {
     const Vec3d n = gradient(*refine, p, 0.25 * g.step);
     mesh.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});

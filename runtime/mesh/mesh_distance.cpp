@@ -14,6 +14,11 @@ struct MeshDistance::State {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Vec3d> face_normals, vertex_normals;
   std::vector<std::array<Vec3d, 3>> edge_normals;  // of the edge from corner s to s + 1
+  struct Ball {
+    Vec3d middle;
+    double radius;
+  };
+  std::vector<Ball> balls;  // around each triangle
 
   ~State() {
     if (scene) rtcReleaseScene(scene);
@@ -42,11 +47,14 @@ Vec3d nearest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c, Feature& feature) 
   return feature = Feature::Face, a + ab * (vb * inv) + ac * (vc * inv);
 }
 
+constexpr std::uint32_t kNone = ~0u;
+constexpr double kFar = 1e30;
+
 struct Query {
   const MeshDistance::State* state;
   Vec3d p;
-  double best = 1e300;
-  std::uint32_t triangle = 0;
+  double best;
+  std::uint32_t triangle = kNone;
 };
 
 }  // namespace
@@ -64,6 +72,8 @@ MeshDistance::MeshDistance(const MeshData& mesh) : state_(std::make_unique<State
     Vec3d n = cross(v[1] - v[0], v[2] - v[0]);
     if (length(n) > 0) n = normalize(n);
     s.face_normals.push_back(n);
+    const Vec3d middle = (v[0] + v[1] + v[2]) / 3;
+    s.balls.push_back({middle, std::sqrt(std::max({length_squared(v[0] - middle), length_squared(v[1] - middle), length_squared(v[2] - middle)}))});
     for (int i = 0; i < 3; i++) {
       const Vec3d u = v[(i + 1) % 3] - v[i], w = v[(i + 2) % 3] - v[i];
       s.vertex_normals[t[i]] += n * std::atan2(length(cross(u, w)), dot(u, w));
@@ -90,14 +100,17 @@ MeshDistance::MeshDistance(const MeshData& mesh) : state_(std::make_unique<State
 
 MeshDistance::~MeshDistance() = default;
 
-double MeshDistance::operator()(Vec3d p, Vec3d* nearest, std::uint32_t* triangle) const {
-  Query q{state_.get(), p};
-  RTCPointQuery query{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0, 1e30f};
+double MeshDistance::operator()(Vec3d p, Vec3d* nearest, std::uint32_t* triangle, double expected) const {
+  Query q{state_.get(), p, expected};
+  RTCPointQuery query{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0, static_cast<float>(expected)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(state_->scene, &query, &context,
                 [](RTCPointQueryFunctionArguments* args) {
                   auto& q = *static_cast<Query*>(args->userPtr);
+                  const auto& ball = q.state->balls[args->primID];
+                  const double reach = q.best + ball.radius;
+                  if (length_squared(q.p - ball.middle) > reach * reach) return false;
                   const auto& t = q.state->triangles[args->primID];
                   Feature f;
                   const double d = length(q.p - nearest_on_triangle(q.p, q.state->positions[t[0]], q.state->positions[t[1]], q.state->positions[t[2]], f));
@@ -108,6 +121,8 @@ double MeshDistance::operator()(Vec3d p, Vec3d* nearest, std::uint32_t* triangle
                   return true;
                 },
                 &q);
+  if (q.triangle == kNone && expected < kFar) return (*this)(p, nearest, triangle);
+  if (q.triangle == kNone) q.triangle = 0;  // a place that is not a number
   const auto& t = state_->triangles[q.triangle];
   Feature f;
   const Vec3d c = nearest_on_triangle(p, state_->positions[t[0]], state_->positions[t[1]], state_->positions[t[2]], f);

@@ -17,8 +17,9 @@ class MeshDistance {
   explicit MeshDistance(const MeshData& mesh);
   ~MeshDistance();
   /// The nearest point of the mesh, and the distance to it, negative inside (by the angle-weighted pseudo-normal of the nearest
-  /// feature, Baerentzen & Aanaes 2005), and the triangle that the nearest point lies on.
-  double operator()(Vec3d p, Vec3d* nearest = nullptr, std::uint32_t* triangle = nullptr) const;
+  /// feature, Baerentzen & Aanaes 2005), and the triangle that the nearest point lies on. `expected`: the answer is found sooner where
+  /// the mesh is no further away than this.
+  double operator()(Vec3d p, Vec3d* nearest = nullptr, std::uint32_t* triangle = nullptr, double expected = 1e30) const;
 
   /// The point of the mesh that is nearest to p.
   MeshPoint nearest(Vec3d p) const;

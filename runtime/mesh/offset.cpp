@@ -16,7 +16,7 @@ Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
 }
 
 constexpr int kFiner = 2;  // grids that are tried at most
-constexpr double kAccepted = 3e-4;  // the share of faces off the distance for which no other mesh is tried
+constexpr double kAccepted = 1e-3;  // the share of faces off the distance for which no other mesh is tried
 
 std::vector<Vec3d> vertex_normals(const MeshData& m) {
   std::vector<Vec3d> normals(m.positions.size());

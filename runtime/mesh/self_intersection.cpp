@@ -19,6 +19,13 @@ bool pierces(Vec3d p, Vec3d q, const Corners& t) {
   return dot(cross(b - a, x - a), n) > 0 && dot(cross(c - b, x - b), n) > 0 && dot(cross(a - c, x - c), n) > 0;
 }
 
+// Whether the triangle lies on one side of the other's plane.
+bool aside(const Corners& p, const Corners& q) {
+  const Vec3d n = cross(q[1] - q[0], q[2] - q[0]);
+  const double a = dot(p[0] - q[0], n), b = dot(p[1] - q[0], n), c = dot(p[2] - q[0], n);
+  return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
 // s and t are the faces' vertices, p and q where these are.
 bool cross_each_other(const Triangle& s, const Triangle& t, const Corners& p, const Corners& q) {
   int shared = 0, of_s = 0, of_t = 0;
@@ -28,9 +35,17 @@ bool cross_each_other(const Triangle& s, const Triangle& t, const Corners& p, co
   if (shared > 1) return false;
   // With one corner in common only the sides opposite to it can pass through the other face.
   if (shared == 1) return pierces(p[(of_s + 1) % 3], p[(of_s + 2) % 3], q) || pierces(q[(of_t + 1) % 3], q[(of_t + 2) % 3], p);
+  if (aside(p, q) || aside(q, p)) return false;
   for (int i = 0; i < 3; i++)
     if (pierces(p[i], p[(i + 1) % 3], q) || pierces(q[i], q[(i + 1) % 3], p)) return true;
   return false;
+}
+
+// Whether the corners lie beyond one side of a box.
+template <double Vec3d::*axis>
+bool apart(const Corners& p, const Vec3d& lo, const Vec3d& hi) {
+  return (p[0].*axis > hi.*axis && p[1].*axis > hi.*axis && p[2].*axis > hi.*axis) ||
+         (p[0].*axis < lo.*axis && p[1].*axis < lo.*axis && p[2].*axis < lo.*axis);
 }
 
 Vec3d low(const Corners& p) { return min(p[0], min(p[1], p[2])); }
@@ -61,6 +76,8 @@ void FaceGrid::insert(std::uint32_t f) {
   const Triangle& t = triangles_[f];
   const Corners p = {positions_[t[0]], positions_[t[1]], positions_[t[2]]};
   visit_cells(low(p), high(p), [&](std::size_t bucket) {
+    for (std::int32_t n = heads_[bucket]; n >= 0; n = nodes_[n].next)
+      if (nodes_[n].face == f) return;
     nodes_.push_back({f, heads_[bucket]});
     heads_[bucket] = static_cast<std::int32_t>(nodes_.size() - 1);
   });
@@ -77,8 +94,7 @@ void FaceGrid::crossings(const Triangle& t, std::uint32_t vertex, Vec3d moved, c
       const Triangle& u = triangles_[f];
       if (u[0] == u[1]) continue;
       const Corners q = {positions_[u[0]], positions_[u[1]], positions_[u[2]]};
-      const Vec3d a = low(q), b = high(q);
-      if (a.x > hi.x || b.x < lo.x || a.y > hi.y || b.y < lo.y || a.z > hi.z || b.z < lo.z) continue;
+      if (apart<&Vec3d::x>(q, lo, hi) || apart<&Vec3d::y>(q, lo, hi) || apart<&Vec3d::z>(q, lo, hi)) continue;
       if (std::find(without.begin(), without.end(), f) != without.end() || std::find(found.begin(), found.end(), f) != found.end()) continue;
       if (cross_each_other(t, u, p, q)) found.push_back(f);
     }

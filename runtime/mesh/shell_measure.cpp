@@ -8,12 +8,13 @@ namespace stokes {
 
 namespace {
 constexpr double kBend = 0.02;  // of the distance: an edge that rises less over either end's plane is taken as lying on the level
+constexpr double kNear = 1.05;  // of the distance: most places asked for are no further from the mesh
 }
 
 ShellMeasure::Place ShellMeasure::at(Vec3d p) const {
   Vec3d nearest;
   Place place;
-  place.s = distance_(p, &nearest);
+  place.s = distance_(p, &nearest, nullptr, kNear * std::abs(d_));
   place.off = std::abs(place.s / d_ - 1);
   place.gradient = place.s != 0 ? (p - nearest) / place.s : Vec3d{};
   return place;

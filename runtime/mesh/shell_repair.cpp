@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kRounds = 60;
 constexpr int kLate = 5;                  // from this round on bolder means are used, and others more rarely
-constexpr double kHopeless = 0.12;        // a shell with this share of faulty faces is better made anew
+constexpr double kHopeless = 0.5;         // a shell with this share of faulty faces is better made anew
+constexpr std::size_t kWork = 5000;       // faces that are looked at, beyond once for each that the shell has, before it is left as it is
 constexpr double kEnough = 0.5;           // an edit that leaves less than this share of the faults is taken at once
 constexpr double kGain = 0.05;            // the least gain an edit must bring, and the least share of the faults
 constexpr double kShortest = 0.02;        // of the distance: edges are not divided below,
@@ -32,7 +33,7 @@ Vec3d meet(const std::vector<ShellMeasure::Corner>& planes, Vec3d start) {
 
 class Repair {
  public:
-  Repair(const MeshData& shell, const ShellMeasure& measure) : editor_(shell, measure), measure_(measure) {}
+  Repair(const MeshData& shell, const ShellMeasure& measure) : editor_(shell, measure), measure_(measure), work_(editor_.faces() + kWork) {}
 
   bool changed() const { return made_ > 0; }
   MeshData mesh() const { return editor_.mesh(); }
@@ -47,7 +48,7 @@ class Repair {
       // An end where two times through all the means have brought nothing.
       since = faulty.size() < fewest ? 0 : since + 1;
       fewest = std::min(fewest, faulty.size());
-      if (since > 2 * kLate) break;
+      if (since > 2 * kLate || work_ == 0) break;
       sweep(faulty, round);
     }
     faulty_faces();
@@ -70,13 +71,15 @@ class Repair {
     for (const std::uint32_t f : faulty) waiting[f] = 1;
     std::size_t left = 4 * faulty.size() + 200;
     refilled_.clear();
-    while (!queue.empty() && left-- > 0) {
+    while (!queue.empty() && left-- > 0 && work_ > 0) {
       const std::uint32_t f = queue.front();
       queue.pop_front();
       waiting[f] = 0;
       if (!editor_.faulty(f)) continue;
       editor_.refresh(f);
-      if (!editor_.faulty(f) || !mend(f, round)) continue;
+      if (!editor_.faulty(f)) continue;
+      work_--;
+      if (!mend(f, round)) continue;
       waiting.resize(editor_.faces());
       for (const std::uint32_t g : touched_)
         if (editor_.faulty(g) && !waiting[g]) waiting[g] = 1, queue.push_back(g);
@@ -217,6 +220,7 @@ class Repair {
 
   ShellEditor editor_;
   const ShellMeasure& measure_;
+  std::size_t work_;  // left to be spent
   ShellEdit best_;
   double best_gain_ = 0;
   std::size_t made_ = 0;  // edits

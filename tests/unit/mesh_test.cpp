@@ -207,6 +207,15 @@ TEST(Generators, HeadAndHandAreClosedAndOfHumanSize) {
   }
 }
 
+// At this step the webs and tips are thinner than a cell: faces that are spread evenly over them pass through one another.
+TEST(Generators, ACoarseHandDoesNotCrossItself) {
+  for (const double resolution : {6.0, 10.0}) {
+    const MeshData hand = generate_mesh("hand", {resolution, "", {}});
+    EXPECT_TRUE(mesh_topology(hand).watertight()) << resolution;
+    EXPECT_TRUE(self_intersections(hand).empty()) << resolution;
+  }
+}
+
 TEST(Generators, BadRequestsAreRefused) {
   EXPECT_THROW(generate_mesh("foot", {}), std::invalid_argument);
   EXPECT_THROW(generate_mesh("head", {0.01, "", {}}), std::invalid_argument);
