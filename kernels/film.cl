@@ -6,6 +6,8 @@
 
 #define FILM_UNIT 16777216.0f  // alpha, albedo and normals are counted in 2^-24
 #define FILM_LIMIT 4.611686e18f
+// Whether the spectrum of what fluoresced is kept apart.
+#define FILM_KEEPS_FLUORESCENT_BINS ((FILM_CHANNELS & FILM_FLUORESCENT_BINS) != 0 && FILM_SPECTRAL)
 // The small integrators hand over R, G and B instead of radiance per wavelength.
 #define FILM_TAKES_RGB (INTEGRATOR == INTEGRATOR_NORMALS || INTEGRATOR == INTEGRATOR_AO)
 
@@ -94,19 +96,20 @@ STOKES_FN void film_add_bins(const SceneView* view, __global long* words, float 
 
 /// The optional channels after the base words, in the order of layout.h; all of the sample's numbers have been accepted.
 STOKES_FN void film_add_channels(const SceneView* view, __global long* words, const FilmSamples* s, uint j, const float* radiance,
-                                 float4 fluorescence, float per_quantum) {
+                                 const float* fluorescence, float4 fluorescent, float per_quantum) {
   if (FILM_CHANNELS & FILM_ALBEDO)
     for (int i = 0; i < 3; i++) film_add_word(words++, s->albedo[i][j] * FILM_UNIT);
   if (FILM_CHANNELS & FILM_NORMAL)
     for (int i = 0; i < 3; i++) film_add_word(words++, s->normal[i][j] * FILM_UNIT);
   if (FILM_CHANNELS & FILM_DEPTH) film_add_word(words++, s->depth[j] * (1.0f / view->scene->depth_quantum));
   if (FILM_CHANNELS & FILM_FLUORESCENCE) {
-    film_add_word(words++, fluorescence.x * per_quantum);
-    film_add_word(words++, fluorescence.y * per_quantum);
-    film_add_word(words++, fluorescence.z * per_quantum);
-    film_add_word(words++, fluorescence.w * per_quantum);
+    film_add_word(words++, fluorescent.x * per_quantum);
+    film_add_word(words++, fluorescent.y * per_quantum);
+    film_add_word(words++, fluorescent.z * per_quantum);
+    film_add_word(words++, fluorescent.w * per_quantum);
   }
   if (FILM_SPECTRAL) film_add_bins(view, words, s->u[j], radiance, per_quantum);
+  if (FILM_KEEPS_FLUORESCENT_BINS) film_add_bins(view, words + view->scene->spectral_bins, s->u[j], fluorescence, per_quantum);
 }
 
 /// Adds lane j's sample to its pixel. A sample with a number that is not finite or too large is counted and left out.
@@ -126,6 +129,7 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
              film_accepts(fluorescent.z * per_quantum) & film_accepts(fluorescent.w * per_quantum);
   }
   if (FILM_SPECTRAL) valid &= film_accepts(scaled.w * (float)view->scene->spectral_bins);
+  if (FILM_KEEPS_FLUORESCENT_BINS) valid &= film_accepts(fluorescent.w * per_quantum * (float)view->scene->spectral_bins);
   if (FILM_CHANNELS & FILM_DEPTH) valid &= film_accepts(s->depth[j] * (1.0f / view->scene->depth_quantum));
   if (!valid) {
     words[11] += 1;
@@ -140,6 +144,6 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
   film_add_square(words + 7, b);
   film_add_word(words + 9, s->alpha[j] * FILM_UNIT);
   words[10] += 1;
-  if (FILM_CHANNELS | FILM_SPECTRAL) film_add_channels(view, words + FILM_BASE_WORDS, s, j, radiance, fluorescent, per_quantum);
+  if (FILM_CHANNELS | FILM_SPECTRAL) film_add_channels(view, words + FILM_BASE_WORDS, s, j, radiance, fluorescence, fluorescent, per_quantum);
 }
 #endif

@@ -366,12 +366,14 @@ LAYOUT_CHECK(Scene, 396);
 //   [10]   samples                                 count
 //   [11]   invalid samples (NaN, infinite, out of range), which are left out of every sum    count
 // then, where their bit is set in film_channels and in this order, albedo (3, 2^-24), normal (3, 2^-24), depth (1, depth_quantum),
-// fluorescence (4: R, G, B and the energy over all wavelengths; film_quantum), then `spectral_bins` sums of radiance per nm.
+// fluorescence (4: R, G, B and the energy over all wavelengths; film_quantum), then `spectral_bins` sums of radiance per nm, then, with
+// FILM_FLUORESCENT_BINS (which needs FILM_FLUORESCENCE and bins), as many of the part that went through a fluorescent event.
 #define FILM_BASE_WORDS 12
 #define FILM_ALBEDO 1u
 #define FILM_NORMAL 2u
 #define FILM_DEPTH 4u
 #define FILM_FLUORESCENCE 8u
+#define FILM_FLUORESCENT_BINS 16u
 
 // One launch: the samples [sample_begin, sample_end) of the pixels [pixel_begin, pixel_end), where pixel p of the window is
 // (crop_x + p % crop_width, crop_y + p / crop_width); each work-item takes `chunk` consecutive pixels.

@@ -29,16 +29,19 @@ class ReferenceBackend : public Backend {
 
 class OpenClBackend : public Backend {
  public:
-  OpenClBackend(const CompiledScene& scene, const DeviceInfo& device, const DeviceOptions& options) : renderer_(scene, device, options) {}
+  OpenClBackend(const CompiledScene& scene, const DeviceInfo& device, const DeviceOptions& options)
+      : scene_(scene), renderer_(scene, device, options) {}
 
   int render(Film& film, std::uint32_t seed, int begin, int end, const std::function<bool(const BackendProgress&)>& progress) override {
     return renderer_.render_samples(film, seed, begin, end, [&](const RenderProgress& p) { return progress({p.samples_done, p.counters}); });
   }
+  void camera_moved() override { renderer_.set_header(scene_.header); }
   RenderCounters counters() const override { return renderer_.counters(); }
   double build_seconds() const override { return renderer_.build_seconds(); }
   std::vector<std::string> warnings() const override { return renderer_.warnings(); }
 
  private:
+  const CompiledScene& scene_;
   Renderer renderer_;
 };
 

@@ -38,6 +38,8 @@ class Backend {
   virtual ~Backend() = default;
   /// Adds the samples [begin, end) of every pixel to the film. `progress` returns false to stop; returns the end of the samples done.
   virtual int render(Film& film, std::uint32_t seed, int begin, int end, const std::function<bool(const BackendProgress&)>& progress) = 0;
+  /// To be called after the scene's header got another camera (see look_from).
+  virtual void camera_moved() {}
   virtual RenderCounters counters() const = 0;  ///< zeros from the reference, which does not count
   virtual double build_seconds() const { return 0; }
   virtual std::vector<std::string> warnings() const { return {}; }

@@ -37,5 +37,6 @@ Command add_plot(CLI::App& root);
 Command add_merge(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_new(CLI::App& root);
+Command add_view(CLI::App& root);
 
 }  // namespace stokes

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,12 +13,14 @@
 #include "cli/exit_codes.h"
 #include "image/image_file.h"
 #include "image/parity.h"
+#include "image/replace_file.h"
+#include "view/report.h"
 
 namespace stokes {
 namespace {
 
 struct CompareOptions {
-  std::string a, b;
+  std::string a, b, html;
   double alpha = 0.01;
   int block = 0;
   std::optional<double> max_mse, max_relative_mse, max_flip;
@@ -68,6 +71,8 @@ void print_text(const ImageDifference& d, const std::optional<ParityResult>& par
     std::printf("%s\n", d.identical ? "identical" : "not identical (no variances to judge by: render with --aov variance)");
 }
 
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
 int run_compare(const CompareOptions& o) {
   const Image a = read_image(o.a), b = read_image(o.b);
   const ImageDifference difference = compare_images(a, b);
@@ -79,6 +84,10 @@ int run_compare(const CompareOptions& o) {
     parity = test_parity(estimate_of(a), estimate_of(b), options);
   }
   const bool different = is_different(o, difference, parity);
+  if (!o.html.empty()) {
+    const std::string title = file_name(o.a) + " against " + file_name(o.b);
+    write_bytes(o.html, comparison_report(title, {{title, file_name(o.a), file_name(o.b), a, b, difference, parity, different, {}}}));
+  }
   if (o.json)
     print_json(difference, parity, different);
   else
@@ -100,6 +109,7 @@ Command add_compare(CLI::App& root) {
   app->add_option("--max-relmse", o->max_relative_mse, "Largest relMSE that passes");
   app->add_option("--max-flip", o->max_flip, "Largest FLIP that passes");
   app->add_flag("--exact", o->exact, "Any differing value is a difference");
+  app->add_option("--html", o->html, "FILE: one page with both pictures under a slider, maps, spectra and the numbers");
   app->add_flag("--json", o->json, "As JSON");
   return {app, [o] { return run_compare(*o); }};
 }

@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/display.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/render_job.h"
 #include "cli/scene_options.h"
 #include "cli/supervisor.h"
-#include "cli/version.h"
 #include "device/driver_cache.h"
 #include "device/error.h"
 #include "image/error.h"
@@ -29,7 +29,7 @@ struct RenderOptions {
   std::string scene;
   SceneOptions scene_options;
   OutputOptions output;
-  std::string crop, max_time, aov, spectral, samples, checkpoint;
+  std::string crop, max_time, aov, spectral, samples, checkpoint, display_server;
   std::string progress = "auto";
   std::string launch_timeout = "60s";
   bool resume = false, restart = false, json = false, quiet = false, stats = false;
@@ -77,15 +77,10 @@ Plan make_plan(RenderOptions& o) {
 
 /// An empty record for what is to be rendered; its samples_total and range follow --spp and --samples.
 FilmRecord empty_record(const RenderOptions& o, const LoadedScene& scene) {
-  FilmRecord record;
-  const IntegratorDescription& integrator = scene.description.integrator;
-  record.identity = {program_version(), scene.hash, fs::path(scene.path).filename().string(), scene.device.name(),
-                     integrator.name.empty() ? "path tracer mis" : integrator.name, scene.compiled.seed};
-  record.notes = {{"stokes:driver", scene.device.driver()},
-                  {"stokes:mode", scene.compiled.features.rgb ? "rgb" : "spectral"},
-                  {"stokes:wavelengths_per_path", std::to_string(scene.compiled.wavelengths_per_path)}};
+  PixelWindow window = scene.whole();
+  if (!o.crop.empty()) window = parse_crop(o.crop, window.x1, window.y1);
+  FilmRecord record = scene.empty_record(window);
   if (o.output.variance) record.notes.emplace_back(kVarianceNote, "yes");
-  record.samples_total = scene.compiled.samples;
   if (!o.samples.empty()) {
     const auto [begin, end] = parse_samples(o.samples);
     if (end > record.samples_total)
@@ -93,9 +88,6 @@ FilmRecord empty_record(const RenderOptions& o, const LoadedScene& scene) {
                        " samples per pixel; say --spp " + std::to_string(end) + " for every part");
     record.sample_begin = record.sample_end = begin;
   }
-  PixelWindow window = scene.whole();
-  if (!o.crop.empty()) window = parse_crop(o.crop, window.x1, window.y1);
-  record.film = scene.empty_film(window);
   return record;
 }
 
@@ -234,6 +226,7 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
   if (attempt.resume) o.resume = true, o.restart = false;
   if (attempt.empty_caches) isolate_driver_cache(DriverCachePlace::Temporary);
   exit_on_interrupt();
+  const DisplayFeed display = open_display(o.display_server, fs::path(o.scene).filename().string());
 
   const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
   RenderJob job;
@@ -259,6 +252,7 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
     tell_checkpoint_saved();
     enter_stage(WorkStage::Rendering);
   };
+  if (display) job.publish = [&display](const FilmRecord& record) { display(record.film); };
   catch_interrupts();
   const RenderEnd end = render_samples(job, plan, checkpoint_is_ours);
   return conclude(o, plan, job, end, timing, checkpoint_is_ours);
@@ -293,6 +287,7 @@ Command add_render(CLI::App& root) {
   app->add_option("--checkpoint", o->checkpoint, "Save OUT.checkpoint this often (60s), or none [60s; with a large film seldomer]");
   CLI::Option* resume = app->add_flag("--resume", o->resume, "Continue from OUT.checkpoint where there is one");
   app->add_flag("--restart", o->restart, "Begin anew, whatever checkpoint there is")->excludes(resume);
+  app->add_option("--display-server", o->display_server, "HOST:PORT of a tev viewer that shall show the picture as it grows [none]");
   app->add_option("--progress", o->progress, "auto, plain, json or none")->capture_default_str()->check(CLI::IsMember({"auto", "plain", "json", "none"}));
   app->add_flag("--json", o->json, "Print a summary as one JSON object");
   app->add_flag("-q,--quiet", o->quiet, "No progress and no messages but errors");

@@ -12,6 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kPublishSeconds = 1;
+
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The record's counters and seconds from what they were and what the backend has counted since.
@@ -45,11 +47,12 @@ RenderEnd run_job(RenderJob& job) {
   const int first = record.sample_end;
   const Tally tally(record, *job.backend);
   double saving = 0;  // seconds that the last checkpoint took
+  Clock::time_point saved = Clock::now();
   while (record.sample_end < job.sample_end) {
-    // A call ends at the job's end, or early: interrupted, or at the end of a pass, out of time or because a checkpoint is due.
+    // A call ends at the job's end, or early: interrupted, or at the end of a pass, out of time or because somebody waits for the film.
     const int call_begin = record.sample_end;
     const Clock::time_point call_start = Clock::now();
-    bool time_up = false;
+    bool time_up = false, save_due = false;
     record.sample_end = job.backend->render(record.film, record.identity.seed, call_begin, job.sample_end, [&](const BackendProgress& p) {
       const std::uint64_t done = static_cast<std::uint64_t>(call_begin - first) * pixels + p.samples_done;
       tell_alive();
@@ -59,16 +62,20 @@ RenderEnd run_job(RenderJob& job) {
       // The next pass will take about as long as those before: the limit is a promise.
       const double next_pass = tally.elapsed() * static_cast<double>(pixels) / static_cast<double>(std::max<std::uint64_t>(1, done));
       time_up = job.max_seconds > 0 && tally.elapsed() + next_pass > job.max_seconds;
-      const bool save = job.checkpoint_seconds > 0 && since(call_start) >= std::max(job.checkpoint_seconds, saving / job.checkpoint_share);
-      return !time_up && !save;
+      const bool save = job.checkpoint_seconds > 0 && since(saved) >= std::max(job.checkpoint_seconds, saving / job.checkpoint_share);
+      const bool show = job.publish && since(call_start) >= kPublishSeconds;
+      save_due = save;
+      return !time_up && !save && !show;
     });
     tally.settle(record, *job.backend);
+    if (job.publish && record.sample_end > call_begin) job.publish(record);
     if (record.sample_end >= job.sample_end) break;
     if (interrupted()) return RenderEnd::Interrupted;
     if (time_up) return RenderEnd::TimeUp;
-    if (!job.save_checkpoint || job.checkpoint_seconds <= 0) continue;
+    if (!job.save_checkpoint || !save_due) continue;
     const Clock::time_point save_start = Clock::now();
     job.save_checkpoint(record);
+    saved = Clock::now();
     saving = since(save_start);
   }
   tally.settle(record, *job.backend);

@@ -18,6 +18,7 @@ struct RenderJob {
   double checkpoint_seconds = 0;  ///< 0: none
   double checkpoint_share = 1;    ///< no more than this share of the time goes into saving
   std::function<void(const FilmRecord&)> save_checkpoint;
+  std::function<void(const FilmRecord&)> publish;  ///< called about every second, and at the end
   ProgressReport* progress = nullptr;
 };
 

@@ -4,10 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "cli/commands.h"
 #include "cli/scene_hash.h"
+#include "cli/version.h"
 #include "layout.h"
 #include "scene/read_scene.h"
 
@@ -65,6 +67,19 @@ Film LoadedScene::empty_film(const PixelWindow& w) const {
                    static_cast<double>(h.film_quantum), static_cast<double>(h.depth_quantum));
 }
 
+FilmRecord LoadedScene::empty_record(const PixelWindow& window) const {
+  FilmRecord record;
+  const std::string& integrator = description.integrator.name;
+  record.identity = {program_version(), hash, std::filesystem::path(path).filename().string(), device.name(),
+                     integrator.empty() ? "path tracer mis" : integrator, compiled.seed};
+  record.notes = {{"stokes:driver", device.driver()},
+                  {"stokes:mode", compiled.features.rgb ? "rgb" : "spectral"},
+                  {"stokes:wavelengths_per_path", std::to_string(compiled.wavelengths_per_path)}};
+  record.samples_total = compiled.samples;
+  record.film = empty_film(window);
+  return record;
+}
+
 PixelWindow LoadedScene::whole() const {
   return {0, static_cast<int>(compiled.header.camera.width), 0, static_cast<int>(compiled.header.camera.height)};
 }
@@ -86,11 +101,16 @@ SceneDescription read_with_overrides(const std::string& path, const SceneOptions
 }
 
 LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet) {
+  return load_scene(path, options, [&](const SceneDescription&) { return FilmChoice{aovs, bins}; }, quiet);
+}
+
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const std::function<FilmChoice(const SceneDescription&)>& choose, bool quiet) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   LoadedScene loaded;
   loaded.path = path;
   loaded.description = read_with_overrides(path, options);
+  const auto [aovs, bins] = choose(loaded.description);
   if (bins.count > 0 && loaded.description.integrator.mode == ColorMode::Rgb) throw UsageError("--spectral: there are no wavelengths in rgb mode");
   limit_cpu_threads(options.threads);
   loaded.device = find_backend(options.device);

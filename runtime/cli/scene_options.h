@@ -1,5 +1,6 @@
 // The options that several commands share: which scene, with which changes, on which device.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "cli/arguments.h"
 #include "cli/backend.h"
 #include "compiled/compiled_scene.h"
+#include "image/film_file.h"
 #include "scene/description.h"
 
 namespace CLI {
@@ -30,6 +32,12 @@ struct SceneOptions {
   void add_to(CLI::App& command);
 };
 
+/// What a film shall hold beside R, G, B and alpha.
+struct FilmChoice {
+  AovChoice aovs;
+  SpectralBins bins;
+};
+
 /// A scene ready to render, with what it was made from.
 struct LoadedScene {
   std::string path;
@@ -39,12 +47,17 @@ struct LoadedScene {
   DeviceChoice device;
   double load_seconds = 0;
   Film empty_film(const PixelWindow& window) const;
+  /// A record without samples, with what every output says about its origin.
+  FilmRecord empty_record(const PixelWindow& window) const;
   PixelWindow whole() const;
 };
 
 /// Reads, overrides and compiles a scene for the device that the options name. Warnings go to stderr unless `quiet`.
 /// Throws SceneError, UsageError, DeviceError.
 LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet);
+
+/// Likewise, where the film depends on what the scene holds.
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const std::function<FilmChoice(const SceneDescription&)>& choose, bool quiet);
 
 /// Reads and overrides alone.
 SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options);

@@ -5,6 +5,7 @@
 #include "compiled/bounds.h"
 #include "compiled/compilation.h"
 #include "compiled/first_hit.h"
+#include "compiled/look_from.h"
 #include "compiled/shapes.h"
 
 namespace stokes::compiled {
@@ -28,12 +29,9 @@ std::uint32_t medium_in_front(const CompiledScene& scene, Vec3d position, Vec3d 
   return dot(hit->normal, direction) < 0 ? surface.medium_outside : surface.medium_inside;
 }
 
-}  // namespace
-
-void compile_camera(Compilation& c) {
-  const CameraDescription& camera = c.scene.camera;
-  check_camera(c, camera);
-  layout::Camera& out = c.out.header.camera;
+// Everything but the medium.
+layout::Camera layout_camera(const CameraDescription& camera) {
+  layout::Camera out{};
   const Vec3d x = camera.transform.column(0), y = camera.transform.column(1), z = camera.transform.column(2);
   const double half_height = camera.orthographic ? camera.height / 2 : std::tan(camera.vfov * std::numbers::pi / 360);
   const double aspect = double(camera.width) / camera.height_pixels;
@@ -50,9 +48,34 @@ void compile_camera(Compilation& c) {
   out.focal_distance = float(camera.fdist * length(z));
   out.width = std::uint32_t(camera.width);
   out.height = std::uint32_t(camera.height_pixels);
-  out.medium = camera.medium ? compile_medium(c, camera.medium->get())
-                             : medium_in_front(c.out, to_double(out.position), -1.0 * normalize(z));
+  return out;
+}
+
+std::uint32_t medium_before(const CompiledScene& scene, const layout::Camera& camera) {
+  return medium_in_front(scene, to_double(camera.position), -1.0 * to_double(camera.axis_z));
+}
+
+}  // namespace
+
+void compile_camera(Compilation& c) {
+  const CameraDescription& camera = c.scene.camera;
+  check_camera(c, camera);
+  layout::Camera& out = c.out.header.camera;
+  out = layout_camera(camera);
+  out.medium = camera.medium ? compile_medium(c, camera.medium->get()) : medium_before(c.out, out);
   c.out.features.lens = camera.aperture > 0;
 }
 
 }  // namespace stokes::compiled
+
+namespace stokes {
+
+layout::Scene look_from(const CompiledScene& scene, const CameraDescription& camera) {
+  layout::Scene header = scene.header;
+  header.camera = compiled::layout_camera(camera);
+  header.camera.medium = camera.medium ? scene.header.camera.medium : compiled::medium_before(scene, header.camera);
+  header.depth_quantum = compiled::depth_quantum(header);
+  return header;
+}
+
+}  // namespace stokes

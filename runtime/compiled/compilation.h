@@ -114,6 +114,8 @@ Curve compile_environment(Compilation& c);
 
 // camera.cpp, header.cpp
 void compile_camera(Compilation& c);
+/// The film's unit of depth, from the scene's bounds and the camera's place.
+float depth_quantum(const layout::Scene& header);
 /// Bounds, quanta, counts, options; everything else must be there.
 void compile_header(Compilation& c);
 

@@ -27,12 +27,14 @@ float quantum(double value, int bits) { return float(std::ldexp(1.0, std::clamp(
 layout::uint film_stride(const CompileOptions& o) {
   const unsigned channels = o.film_channels;
   return FILM_BASE_WORDS + (channels & FILM_ALBEDO ? 3 : 0) + (channels & FILM_NORMAL ? 3 : 0) + (channels & FILM_DEPTH ? 1 : 0) +
-         (channels & FILM_FLUORESCENCE ? 4 : 0) + layout::uint(o.spectral_bins);
+         (channels & FILM_FLUORESCENCE ? 4 : 0) + layout::uint(o.spectral_bins) * (channels & FILM_FLUORESCENT_BINS ? 2 : 1);
 }
 
 void fill_film(Compilation& c, layout::Scene& h) {
   const CompileOptions& o = c.options;
   if (o.spectral_bins > 0 && c.spectra.rgb()) throw SceneError("error: spectral bins need wavelengths: they cannot be rendered in rgb mode");
+  if ((o.film_channels & FILM_FLUORESCENT_BINS) && (o.spectral_bins == 0 || !(o.film_channels & FILM_FLUORESCENCE)))
+    throw SceneError("error: the spectrum of fluorescent light needs spectral bins and the fluorescence channel");
   // 40 bits below the brightest emission; sums of radiance over wavelength need up to 500 times the room.
   const bool energies = (o.film_channels & FILM_FLUORESCENCE) || o.spectral_bins > 0;
   h.film_quantum = quantum(c.peak_radiance > 0 ? c.peak_radiance : 1, energies ? 34 : 40);
@@ -60,6 +62,11 @@ void fill_box(Compilation& c, layout::Scene& h, const Bounds& box) {
 
 }  // namespace
 
+// Depths are measured from the camera, which may stand far outside.
+float depth_quantum(const layout::Scene& h) {
+  return quantum(double(h.scene_radius) + length(to_double(h.camera.position) - to_double(h.scene_center)), 40);
+}
+
 void compile_header(Compilation& c) {
   layout::Scene& h = c.out.header;
   const IntegratorDescription& integrator = c.scene.integrator;
@@ -77,8 +84,7 @@ void compile_header(Compilation& c) {
   const Bounds box = scene_bounds(c.out);
   h.scene_center = to_float(box.center());
   h.scene_radius = float(box.radius());
-  // Depths are measured from the camera, which may stand far outside.
-  h.depth_quantum = quantum(box.radius() + length(to_double(h.camera.position) - box.center()), 40);
+  h.depth_quantum = depth_quantum(h);
   fill_film(c, h);
   fill_box(c, h, box);
 

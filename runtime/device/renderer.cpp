@@ -283,6 +283,17 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
   }, state.scene_bytes + film.words.size() * sizeof(std::int64_t), state.info.memory_bytes);
 }
 
+void Renderer::set_header(const layout::Scene& header) {
+  State& state = *state_;
+  if (header.film_stride != state.header.film_stride || header.light_count != state.header.light_count)
+    throw std::invalid_argument("the header belongs to another scene");
+  checked(state.name, [&] {
+    state.queue.enqueueWriteBuffer(state.scene_buffers.buffers.front(), CL_TRUE, 0, sizeof header, &header);
+    return 0;
+  });
+  state.header = header;
+}
+
 const RenderCounters& Renderer::counters() const { return state_->counters; }
 double Renderer::build_seconds() const { return state_->build_seconds; }
 const DeviceInfo& Renderer::device() const { return state_->info; }

@@ -61,6 +61,9 @@ class Renderer {
   /// Adds the samples [begin, end) of every pixel of the film's window to the film. `progress` is called after each launch and returns
   /// false to stop; then the film holds whole sample passes [begin, returned end). Returns the end of the samples done.
   int render_samples(Film& film, std::uint32_t seed, int begin, int end, const std::function<bool(const RenderProgress&)>& progress);
+  /// From now on the scene is seen as `header` says (see look_from); no kernel is built for it. Films must be made anew where the header's
+  /// resolution or unit of depth differ. Throws std::invalid_argument when the header has another film layout or lights.
+  void set_header(const layout::Scene& header);
   const RenderCounters& counters() const;
   double build_seconds() const;
   const DeviceInfo& device() const;

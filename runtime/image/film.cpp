@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "layout.h"
 
@@ -44,6 +45,9 @@ void add_square(std::int64_t* low_high, std::int64_t value) {
   low_high[1] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum >> 64));
 }
 
+/// Words of the spectral bins, of all light and, where they are kept, of fluorescent light.
+int bin_words(const Film& film) { return film.spectral_bins * (film.channels & FILM_FLUORESCENT_BINS ? 2 : 1); }
+
 /// The quantum of each word after the base words, in the order of layout.h.
 std::vector<double> extra_quanta(const Film& film) {
   std::vector<double> quanta;
@@ -51,7 +55,7 @@ std::vector<double> extra_quanta(const Film& film) {
   if (film.channels & FILM_NORMAL) quanta.insert(quanta.end(), 3, kUnit);
   if (film.channels & FILM_DEPTH) quanta.push_back(film.depth_quantum);
   if (film.channels & FILM_FLUORESCENCE) quanta.insert(quanta.end(), 4, film.quantum);
-  quanta.insert(quanta.end(), static_cast<std::size_t>(film.spectral_bins), film.quantum);
+  quanta.insert(quanta.end(), static_cast<std::size_t>(bin_words(film)), film.quantum);
   return quanta;
 }
 
@@ -62,8 +66,11 @@ std::vector<std::string> extra_names(const Film& film) {
   if (film.channels & FILM_NORMAL) append({"N.X", "N.Y", "N.Z"});
   if (film.channels & FILM_DEPTH) append({"Z"});
   if (film.channels & FILM_FLUORESCENCE) append({"Fluorescence.R", "Fluorescence.G", "Fluorescence.B", "Fluorescence.Energy"});
-  for (int i = 0; i < film.spectral_bins; i++)
-    names.push_back(spectral_channel_name(film.spectral_begin + (i + 0.5) * (film.spectral_end - film.spectral_begin) / film.spectral_bins));
+  for (int word = 0; word < bin_words(film); word++) {
+    const int i = word % film.spectral_bins;
+    names.push_back((word < film.spectral_bins ? "" : "Fluorescence.") +
+                    spectral_channel_name(film.spectral_begin + (i + 0.5) * (film.spectral_end - film.spectral_begin) / film.spectral_bins));
+  }
   return names;
 }
 
@@ -128,7 +135,7 @@ void film_add(Film& film, int x, int y, const double rgb[3], double alpha, const
   std::int64_t* pixel = &film.words[(static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x)) *
                                     static_cast<std::size_t>(film.stride)];
   // Everything is converted before anything is added, so that an invalid sample leaves no trace but its count.
-  const int aov_count = film.stride - FILM_BASE_WORDS - film.spectral_bins;
+  const int aov_count = film.stride - FILM_BASE_WORDS - bin_words(film);
   static thread_local std::vector<std::int64_t> extra;
   extra.assign(static_cast<std::size_t>(film.stride - FILM_BASE_WORDS), 0);
   std::int64_t color[3], coverage = 0;
@@ -145,7 +152,7 @@ void film_add(Film& film, int x, int y, const double rgb[3], double alpha, const
     if (film.channels & FILM_FLUORESCENCE) convert(aovs, 4, film.quantum);
   }
   word = aov_count;
-  if (bins) convert(bins, film.spectral_bins, film.quantum);
+  if (bins) convert(bins, bin_words(film), film.quantum);
 
   if (!valid) {
     pixel[kInvalid]++;
@@ -212,6 +219,28 @@ void film_accumulate(Film& into, const Film& part) {
         to[w + 1] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum >> 64));
       }
     }
+}
+
+std::vector<float> film_plane(const Film& film, const std::string& name) {
+  const char* colors[3] = {"R", "G", "B"};
+  for (int c = 0; c < 3; c++) {
+    if (name == colors[c]) return mean_plane(film, c, film.quantum);
+    if (name == std::string("Variance.") + colors[c]) return variance_plane(film, c);
+  }
+  if (name == "A") return mean_plane(film, kAlpha, kUnit);
+  const std::vector<std::string> names = extra_names(film);
+  for (std::size_t i = 0; i < names.size(); i++)
+    if (name == names[i]) return mean_plane(film, FILM_BASE_WORDS + static_cast<int>(i), extra_quanta(film)[i]);
+  throw std::invalid_argument("the film has no channel " + name);
+}
+
+std::vector<double> film_bins(const Film& film, int x, int y, bool fluorescent) {
+  const std::int64_t* words = film_pixel(film, x, y);
+  const int first = film.stride - bin_words(film) + (fluorescent ? film.spectral_bins : 0);
+  std::vector<double> bins(static_cast<std::size_t>(film.spectral_bins), 0.0);
+  for (std::size_t i = 0; i < bins.size() && words[kSamples] > 0; i++)
+    bins[i] = static_cast<double>(words[first + static_cast<int>(i)]) * film.quantum / static_cast<double>(words[kSamples]);
+  return bins;
 }
 
 Image develop(const Film& film, bool variance) {

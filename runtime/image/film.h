@@ -40,7 +40,7 @@ Film make_film(int full_width, int full_height, int crop_x, int crop_y, int widt
                double spectral_begin, double spectral_end, double quantum, double depth_quantum);
 
 /// Adds one sample of one pixel (the reference's way in; the kernels do the same on the device). rgb in film radiance; aovs and bins
-/// follow the order of layout.h and may be null where not used. A sample that is not finite, or too large for the film, is counted
+/// (with FILM_FLUORESCENT_BINS twice as many) follow the order of layout.h and may be null where not used. A sample that is not finite, or too large for the film, is counted
 /// as invalid and left out.
 void film_add(Film& film, int x, int y, const double rgb[3], double alpha, const double* aovs, const double* bins);
 
@@ -69,6 +69,11 @@ void film_accumulate(Film& into, const Film& part);
 
 /// The name of a spectral channel in the layout of Fichet et al. 2021: "S0.550,000000nm".
 std::string spectral_channel_name(double nm);
+
+/// One channel of `develop` by its name, without the rest. Throws std::invalid_argument for a name that the film does not have.
+std::vector<float> film_plane(const Film& film, const std::string& name);
+/// The mean radiance per nm of a pixel in each spectral bin, of all light or of the fluorescent part (FILM_FLUORESCENT_BINS).
+std::vector<double> film_bins(const Film& film, int x, int y, bool fluorescent);
 
 /// Means, and with `variance` the variance of each pixel's mean (Variance.R, .G, .B).
 Image develop(const Film& film, bool variance);

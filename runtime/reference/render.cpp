@@ -37,11 +37,14 @@ void fill_aovs(const World& world, const Film& film, const CameraWavelength& cam
 
 /// The camera's wavelength decides the bin; the value is the estimate of the mean radiance per nm in it.
 void fill_bins(const Film& film, const CameraWavelength& camera, const PathResult& path, std::vector<double>& bins) {
-  bins.assign(static_cast<std::size_t>(film.spectral_bins), 0.0);
+  const bool apart = film.channels & FILM_FLUORESCENT_BINS;
+  bins.assign(static_cast<std::size_t>(film.spectral_bins * (apart ? 2 : 1)), 0.0);
   if (film.spectral_bins == 0 || camera.wavelength.channel >= 0) return;
   const double width = (film.spectral_end - film.spectral_begin) / film.spectral_bins;
   const double bin = std::floor((camera.wavelength.nm - film.spectral_begin) / width);
-  if (bin >= 0 && bin < film.spectral_bins) bins[static_cast<std::size_t>(bin)] = path.radiance * camera.inverse_pdf / width;
+  if (!(bin >= 0 && bin < film.spectral_bins)) return;
+  bins[static_cast<std::size_t>(bin)] = path.radiance * camera.inverse_pdf / width;
+  if (apart) bins[static_cast<std::size_t>(bin) + static_cast<std::size_t>(film.spectral_bins)] = path.fluorescent * camera.inverse_pdf / width;
 }
 
 /// Whether the camera stands in a medium that attenuates: seen without end, that is opaque.

@@ -190,6 +190,7 @@ struct SpectralBinsDescription {
 struct SceneDescription {
   SourceMap source;
   std::string directory;  ///< of the scene file
+  std::vector<std::string> files;  ///< every other file that was read, as opened; the same one may be there again
   CameraDescription camera;
   IntegratorDescription integrator;
   BackgroundDescription background;

@@ -36,6 +36,7 @@ std::string ReadContext::file_path(const JsonNode& name) const {
   if (!std::filesystem::exists(status)) name.fail("there is no file " + path.string());
   if (std::filesystem::is_directory(status)) name.fail(path.string() + " is a folder");
   if (!std::ifstream(path)) name.fail(path.string() + " cannot be read");
+  scene.files.push_back(path.string());
   return path.string();
 }
 

@@ -49,6 +49,21 @@ says out.txt '"complete": true'
 expect 0 "$STOKES" render "$FIXTURES/small.json" --device reference -o p.exr --progress json
 says err.txt '^\{"progress":1\.000000,"samples":12,'
 
+# Comparisons as one page; parity needs an OpenCL device, which is another test's business.
+expect 0 render -o v1.exr --aov variance --spectral 400:700:3
+expect 0 render -o v2.exr --aov variance --spectral 400:700:3 --seed 8
+expect 0 "$STOKES" compare v1.exr v2.exr --html compare.html
+says compare.html 'v1.exr against v2.exr'
+says compare.html '"verdict":"They agree within their noise"'
+says compare.html '"spectra":\{"begin":400.0,"end":700.0'
+expect 0 "$STOKES" parity "$FIXTURES/small.json" --devices reference --spp 16 --html parity.html
+says parity.html '"convergence":\[\[1,[0-9.e-]*\],\[2,'
+expect 5 "$STOKES" compare v1.exr v2.exr --html nowhere/compare.html
+
+# Nobody listens there: an output error before any work is done.
+expect 5 render -o w.exr --display-server 127.0.0.1:1
+says err.txt 'no viewer answers'
+
 # Plots.
 expect 0 "$STOKES" plot D65 -o d65.svg
 says d65.svg '<svg'

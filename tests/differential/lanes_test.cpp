@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include "compiled/compiled_scene.h"
+#include "compiled/look_from.h"
 #include "device/renderer.h"
 #include "differential/lane_scenes.h"
 #include "image/film.h"
@@ -109,7 +111,7 @@ TEST(LanesTest, ThinFog) {
   ASSERT_TRUE(scene.features.thin_media);
   expect_one_image(scene, {1});
 }
-TEST(LanesTest, Fluorescence) { expect_one_image(compile(kFluorescenceScene, FILM_FLUORESCENCE), {1}); }
+TEST(LanesTest, Fluorescence) { expect_one_image(compile(kFluorescenceScene, FILM_FLUORESCENCE | FILM_FLUORESCENT_BINS, 5), {1}); }
 TEST(LanesTest, Rgb) { expect_one_image(compile(kRgbScene, kAllChannels), {1}); }
 
 TEST(LanesTest, ThreadsDoNotShow) {
@@ -117,6 +119,29 @@ TEST(LanesTest, ThreadsDoNotShow) {
   Renderer all = make_renderer(scene, 8), one = make_renderer(scene, 8, 1);
   EXPECT_EQ(difference(render(scene, all, whole(scene)), render(scene, one, whole(scene))), "");
   expect_same_counters(all.counters(), one.counters());
+}
+
+// A renderer whose camera was moved, and one of a scene that was compiled with that camera.
+TEST(LanesTest, AMovedCameraSeesWhatACompiledOneSees) {
+  SceneDescription description = read_scene_text(kMediaScene, "scene.json", STOKES_SOURCE_DIR "/scenes");
+  CompileOptions options;
+  options.film_channels = FILM_DEPTH;
+  CompiledScene scene = compile_scene(description, options);
+  Renderer renderer = make_renderer(scene, 8);
+  const Film before = render(scene, renderer, whole(scene));
+
+  CameraDescription& camera = description.camera;
+  camera.transform.m[3] += 0.25;  // sideways
+  camera.width /= 2;
+  camera.vfov *= 0.8;
+  const CompiledScene there = compile_scene(description, options);
+  scene.header = look_from(scene, camera);
+  EXPECT_EQ(std::memcmp(&scene.header, &there.header, sizeof scene.header), 0);
+  renderer.set_header(scene.header);
+  const Film moved = render(scene, renderer, whole(scene));
+  Renderer other = make_renderer(there, 8);
+  EXPECT_EQ(difference(moved, render(there, other, whole(there))), "");
+  EXPECT_NE(moved.words, before.words);
 }
 
 TEST(LanesTest, AnotherSeedIsAnotherImage) {

@@ -102,6 +102,38 @@ TEST(FluorescenceFilm, UnderAnInvisibleLampItIsAllThereIs) {
   }
 }
 
+// The spectrum of what fluoresces adds up to its energy, sample by sample, and lies where the lamp's light (below 360 nm) does not.
+TEST(FluorescenceFilm, ItsSpectrumAddsUpToItsEnergy) {
+  constexpr int kBins = 25;
+  CompileOptions options;
+  options.film_channels = FILM_FLUORESCENCE | FILM_FLUORESCENT_BINS;
+  options.spectral_bins = kBins, options.spectral_begin = 280, options.spectral_end = 780;
+  SceneDescription description = read_scene(STOKES_SOURCE_DIR "/scenes/fluorescent_one_dye.json");
+  description.camera.width = description.camera.height_pixels = 16;
+  const CompiledScene scene = compile_scene(description, options);
+  for (const Backend backend : {by_opencl, Backend(render_by_reference)}) {
+    const Image image = develop(backend(scene, 8, 1), false);
+    const std::vector<float>& energy = image.find("Fluorescence.Energy")->values;
+    std::vector<double> sum(energy.size(), 0.0);
+    double reflected = 0, excited = 0;
+    for (int bin = 0; bin < kBins; bin++) {
+      const std::string name = spectral_channel_name(280 + (bin + 0.5) * 20);
+      const std::vector<float>&all = image.find(name)->values, &fluorescent = image.find("Fluorescence." + name)->values;
+      for (std::size_t i = 0; i < sum.size(); i++) {
+        sum[i] += 20.0 * double(fluorescent[i]);
+        excited += double(fluorescent[i]);
+        reflected += double(all[i]) - double(fluorescent[i]);
+        if (bin >= 4) {
+          EXPECT_EQ(fluorescent[i], all[i]) << name;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < sum.size(); i++) EXPECT_NEAR(sum[i], double(energy[i]), 1e-4 * double(energy[i]) + 1e-6);
+    EXPECT_GT(excited, 0);
+    EXPECT_GT(reflected, 0);
+  }
+}
+
 /// A plane seen straight on, under a small lamp whose direction brings no noise.
 SceneDescription lit_plane(int wavelengths, MaterialPtr material, SpectrumPtr light) {
   SceneDescription scene = empty_scene(parallel_camera(0, 1, 0.01, 32), IntegratorKind::Mis, ColorMode::Spectral);

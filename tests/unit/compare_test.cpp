@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "image/error.h"
 #include "image/flip.h"
@@ -75,6 +76,48 @@ TEST(Flip, StructureCountsAndSmallNoiseHardly) {
     }
   EXPECT_GT(flip_difference(a, lines), 0.1);
   EXPECT_LT(flip_difference(a, faint), 0.03);
+}
+
+/// The picture of the fixture's pairs: smooth, with values in [0, 1].
+Image ramps() {
+  Image image = flat(64, 48, 0, 0, 0);
+  for (int y = 0; y < 48; y++)
+    for (int x = 0; x < 64; x++) {
+      const auto i = static_cast<std::size_t>(y * 64 + x);
+      image.channels[0].values[i] = static_cast<float>(x / 63.0);
+      image.channels[1].values[i] = static_cast<float>(y / 47.0);
+      image.channels[2].values[i] = static_cast<float>((x + y) / 110.0);
+    }
+  return image;
+}
+
+// Values of the FLIP authors' own program (PyPI flip-evaluator 1.7) by make_flip_values.py, which has the same images.
+TEST(Flip, AgreesWithItsAuthorsProgram) {
+  const Image a = ramps();
+  Image dim = a, block = a, stripe = a, patterned = a;
+  for (int y = 0; y < 48; y++)
+    for (int x = 0; x < 64; x++)
+      for (std::size_t c = 0; c < 3; c++) {
+        const auto i = static_cast<std::size_t>(y * 64 + x);
+        const float v = a.channels[c].values[i];
+        dim.channels[c].values[i] = 0.9f * v + 0.02f;
+        if (x >= 30 && x < 45 && y >= 10 && y < 20) block.channels[c].values[i] = 1 - v;
+        if (x == 31) stripe.channels[c].values[i] = 0;
+        const double pattern[3] = {((5 * x + 3 * y) % 32) / 31.0, ((x * x + y) % 29) / 28.0, ((x ^ y) % 17) / 16.0};
+        patterned.channels[c].values[i] = static_cast<float>(pattern[c]);
+      }
+  struct Pair {
+    const char* name;
+    const Image* test;
+    double at_67, at_30;
+  };
+  for (const Pair& pair : {Pair{"dim", &dim, 0.1655937, 0.1576298}, Pair{"block", &block, 0.0633852, 0.0508460},
+                           Pair{"stripe", &stripe, 0.0333646, 0.0285048}, Pair{"patterned", &patterned, 0.7451314, 0.8244901}}) {
+    const double ours_67 = flip_difference(a, *pair.test, 67), ours_30 = flip_difference(a, *pair.test, 30);
+    std::printf("%s: %.7f and %.7f, off by %.1e and %.1e\n", pair.name, ours_67, ours_30, ours_67 - pair.at_67, ours_30 - pair.at_30);
+    EXPECT_NEAR(ours_67, pair.at_67, 2e-5) << pair.name;
+    EXPECT_NEAR(ours_30, pair.at_30, 2e-5) << pair.name;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+# Writes a C++ file that holds pages as string constants, each with its styles and scripts inside. Run at build time:
+#   cmake -DOUTPUT=file.cpp -DFOLDER=page "-DPAGES=viewer;report" -P embed_page.cmake
+# A line `<!-- include NAME -->` of a page becomes the file NAME in a <style> or <script> element, by its extension.
+set(text "// Generated from runtime/view/page by embed_page.cmake.\n#include <string>\n\nnamespace stokes {\n\n")
+file(WRITE ${OUTPUT}.part "${text}")
+foreach(page IN LISTS PAGES)
+  file(READ ${FOLDER}/${page}.html html)
+  string(REGEX MATCHALL "<!-- include [a-z_.]+ -->" includes "${html}")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "<!-- include ([a-z_.]+) -->" "\\1" name "${include}")
+    file(READ ${FOLDER}/${name} contents)
+    if(name MATCHES "\\.css$")
+      string(REPLACE "${include}" "<style>\n${contents}</style>" html "${html}")
+    else()
+      string(REPLACE "${include}" "<script>\n${contents}</script>" html "${html}")
+    endif()
+  endforeach()
+  file(APPEND ${OUTPUT}.part "const std::string& ${page}_page() {\n  static const std::string page = R\"stokes_page(${html})stokes_page\";\n  return page;\n}\n\n")
+endforeach()
+file(APPEND ${OUTPUT}.part "}  // namespace stokes\n")
+file(RENAME ${OUTPUT}.part ${OUTPUT})
