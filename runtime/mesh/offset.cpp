@@ -15,7 +15,7 @@ Vec3d face_normal(const MeshData& m, const std::array<std::uint32_t, 3>& t) {
   return cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
 }
 
-constexpr int kFiner = 2;  // grids that are tried at most
+constexpr int kGrids = 1;  // that are tried at most
 constexpr double kAccepted = 1e-3;  // the share of faces off the distance for which no other mesh is tried
 
 std::vector<Vec3d> vertex_normals(const MeshData& m) {
@@ -123,7 +123,7 @@ MeshData offset_by_distance_field(const MeshData& mesh, double d, double step, s
   MeshData out = shift_faces(mesh, d);
   ShellFaults faults = repair_shell(out, distance, d);
   const auto accepted = [&] { return faults.sum() == faults.off_faces && static_cast<double>(faults.off_faces) < kAccepted * static_cast<double>(out.triangles.size()); };
-  for (int i = 0; i < kFiner && !accepted(); i++, step *= 0.7) {
+  for (int i = 0; i < kGrids && !accepted(); i++, step *= 0.7) {
     MeshData level = distance_level(distance, lo, hi, d, step);
     const ShellFaults left = repair_shell(level, distance, d);
     if (worse(faults, left)) out = std::move(level), faults = left;

@@ -13,7 +13,8 @@ namespace {
 constexpr int kRounds = 60;
 constexpr int kLate = 5;                  // from this round on bolder means are used, and others more rarely
 constexpr double kHopeless = 0.5;         // a shell with this share of faulty faces is better made anew
-constexpr std::size_t kWork = 5000;       // faces that are looked at, beyond once for each that the shell has, before it is left as it is
+constexpr double kWork = 60;              // faces that edits may be weighed by, for each that the shell has, before it is left as it is
+constexpr double kLeast = 1e6;            // of these, for small shells
 constexpr double kEnough = 0.5;           // an edit that leaves less than this share of the faults is taken at once
 constexpr double kGain = 0.05;            // the least gain an edit must bring, and the least share of the faults
 constexpr double kShortest = 0.02;        // of the distance: edges are not divided below,
@@ -33,7 +34,7 @@ Vec3d meet(const std::vector<ShellMeasure::Corner>& planes, Vec3d start) {
 
 class Repair {
  public:
-  Repair(const MeshData& shell, const ShellMeasure& measure) : editor_(shell, measure), measure_(measure), work_(editor_.faces() + kWork) {}
+  Repair(const MeshData& shell, const ShellMeasure& measure) : editor_(shell, measure), measure_(measure), work_(std::max(kWork * static_cast<double>(editor_.faces()), kLeast)) {}
 
   bool changed() const { return made_ > 0; }
   MeshData mesh() const { return editor_.mesh(); }
@@ -48,7 +49,7 @@ class Repair {
       // An end where two times through all the means have brought nothing.
       since = faulty.size() < fewest ? 0 : since + 1;
       fewest = std::min(fewest, faulty.size());
-      if (since > 2 * kLate || work_ == 0) break;
+      if (since > 2 * kLate || work_ <= 0) break;
       sweep(faulty, round);
     }
     faulty_faces();
@@ -77,9 +78,7 @@ class Repair {
       waiting[f] = 0;
       if (!editor_.faulty(f)) continue;
       editor_.refresh(f);
-      if (!editor_.faulty(f)) continue;
-      work_--;
-      if (!mend(f, round)) continue;
+      if (!editor_.faulty(f) || !mend(f, round)) continue;
       waiting.resize(editor_.faces());
       for (const std::uint32_t g : touched_)
         if (editor_.faulty(g) && !waiting[g]) waiting[g] = 1, queue.push_back(g);
@@ -90,6 +89,7 @@ class Repair {
   bool offer(ShellEdit&& edit) {
     if (!edit.possible()) return false;
     const double before = editor_.cost_before(edit), gain = best_gain_ < 0 ? best_gain_ : std::max(best_gain_, kGain * before);
+    work_ -= static_cast<double>(edit.added.size());
     const double after = editor_.cost_after(edit, before - gain);
     if (!(before - after > gain)) return false;
     best_gain_ = before - after;
@@ -220,7 +220,7 @@ class Repair {
 
   ShellEditor editor_;
   const ShellMeasure& measure_;
-  std::size_t work_;  // left to be spent
+  double work_;  // left to be spent
   ShellEdit best_;
   double best_gain_ = 0;
   std::size_t made_ = 0;  // edits
