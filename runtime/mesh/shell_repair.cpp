@@ -13,7 +13,7 @@ namespace {
 constexpr int kRounds = 60;
 constexpr int kLate = 5;                  // from this round on bolder means are used, and others more rarely
 constexpr double kHopeless = 0.5;         // a shell with this share of faulty faces is better made anew
-constexpr double kWork = 60;              // faces that edits may be weighed by, for each that the shell has, before it is left as it is
+constexpr double kWork = 200;             // faces that edits may be weighed by, for each that the shell has, before it is left as it is
 constexpr double kLeast = 1e6;            // of these, for small shells
 constexpr double kEnough = 0.5;           // an edit that leaves less than this share of the faults is taken at once
 constexpr double kGain = 0.05;            // the least gain an edit must bring, and the least share of the faults
