@@ -40,8 +40,8 @@ def picture(stokes, name, seconds):
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / f"{name}.exr"
         render(stokes, scene, size, 1, output)  # builds the kernel
-        few = render(stokes, scene, size, 1, output)
-        per_sample = max(render(stokes, scene, size, 5, output) - few, 1e-3) / 4
+        few = min(render(stokes, scene, size, 1, output) for _ in range(2))
+        per_sample = max(render(stokes, scene, size, 17, output) - few, 1e-2) / 16
         samples = 32
         while samples < 4096 and 2 * samples * per_sample <= seconds:
             samples *= 2

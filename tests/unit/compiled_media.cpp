@@ -67,6 +67,44 @@ TEST(CompiledMedium, ConvertsUnits) {
   EXPECT_NE(s.warnings.at(0).find("scene unit"), std::string::npos);
 }
 
+/// Two media in layers: vacuum | `outer` boundary | medium 1 | index-matched boundary | medium 2.
+SceneDescription layers(MaterialKind outer) {
+  MediumDescription m = medium();
+  m.sigma_t = number(1);
+  m.albedo = number(0.5);
+  const MediumPtr first = share(m), second = share(m);
+  SurfaceDescription skin = sphere(std::make_shared<const MaterialDescription>(material(outer)));
+  SurfaceDescription within = sphere(std::make_shared<const MaterialDescription>(material(MaterialKind::Interface)));
+  within.transform = scale({0.5, 0.5, 0.5});
+  skin.inside = within.outside = first;
+  within.inside = second;
+  return scene_of({skin, within});
+}
+
+std::vector<bool> sealed(const SceneDescription& d) {
+  const CompiledScene s = compile_scene(d);
+  std::vector<bool> flags;
+  for (const layout::Medium& m : s.media) flags.push_back((m.flags & MEDIUM_SEALED) != 0);
+  return flags;
+}
+
+TEST(CompiledMedium, IsSealedWithAllThatLightReachesStraightFromIt) {
+  SceneDescription d = layers(MaterialKind::Dielectric);
+  EXPECT_EQ(sealed(d), (std::vector{false, true, true}));
+  EXPECT_EQ(sealed(layers(MaterialKind::Interface)), (std::vector{false, false, false}));
+  // A lamp in the inner layer shines into both.
+  SurfaceDescription lamp = sphere(lambertian());
+  lamp.transform = scale({0.1, 0.1, 0.1});
+  lamp.outside = d.surfaces[1].inside;
+  lamp.emit = number(1);
+  d.surfaces.push_back(lamp);
+  EXPECT_EQ(sealed(d), (std::vector{false, false, false}));
+  // So would one that the camera in the inner layer sees.
+  d = layers(MaterialKind::Dielectric);
+  d.camera.medium = d.surfaces[1].inside;
+  EXPECT_EQ(sealed(d), (std::vector{false, false, false}));
+}
+
 TEST(CompiledMedium, RefusesWhatIsNoMediumAndSaysWhere) {
   MediumDescription m = medium();
   m.sigma_t = sampled({280, 500, 501, 780}, {2, 2, 0.5, 2});
