@@ -9,21 +9,10 @@ import time
 import mitsuba as mi
 import numpy as np
 
+from efficiency import efficiencies
 from mitsuba_scene import mitsuba_scene
 
 XYZ_TO_SRGB = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
-LUMINANCE = np.array([0.2126729, 0.7151522, 0.0721750])
-
-
-def efficiencies(images, seconds):
-    """As `stokes bench`: pixels / (relative variance x CPU seconds) / 1e6, of the luminance's median pixel and of the trimmed mean of
-    R, G and B."""
-    luminance = images @ LUMINANCE
-    relative = luminance.var(0, ddof=1) / (luminance.mean(0) ** 2 + 0.01)
-    colours = (images.var(0, ddof=1) / (images.mean(0) ** 2 + 0.01)).mean(-1)
-    kept = relative <= np.quantile(relative, 0.999)
-    count = relative.size
-    return count / (np.median(relative) * seconds) / 1e6, count / (colours[kept].mean() * seconds) / 1e6
 
 
 def main():
