@@ -190,7 +190,7 @@ MEASURES = {"mitsuba": lambda o, d: peer_rows("mitsuba", o, d), "cycles": lambda
 def measure(section, options, details):
     try:
         return MEASURES[section](options, details)
-    except (OSError, RuntimeError, AttributeError, subprocess.CalledProcessError) as error:
+    except (OSError, RuntimeError, AttributeError, KeyError, ValueError, subprocess.CalledProcessError) as error:
         return [goal(section, f"{section}: all rows", None, None, why=str(error))]
 
 
