@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "cli/commands.h"
 #include "cli/scene_hash.h"
@@ -84,10 +85,15 @@ PixelWindow LoadedScene::whole() const {
   return {0, static_cast<int>(compiled.header.camera.width), 0, static_cast<int>(compiled.header.camera.height)};
 }
 
-SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options) {
+namespace {
+
+SceneOverrides overrides_of(const SceneOptions& options) {
   SceneOverrides overrides;
   for (const std::string& setting : options.settings) overrides.push_back(parse_setting(setting));
-  SceneDescription scene = read_scene(path, overrides);
+  return overrides;
+}
+
+SceneDescription with_options(SceneDescription scene, const SceneOptions& options) {
   if (options.samples) scene.samples = *options.samples;
   if (options.seed) scene.seed = *options.seed;
   if (!options.size.empty()) std::tie(scene.camera.width, scene.camera.height_pixels) = parse_size(options.size);
@@ -100,16 +106,14 @@ SceneDescription read_with_overrides(const std::string& path, const SceneOptions
   return scene;
 }
 
-LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet) {
-  return load_scene(path, options, [&](const SceneDescription&) { return FilmChoice{aovs, bins}; }, quiet);
-}
+using FilmChooser = std::function<FilmChoice(const SceneDescription&)>;
 
-LoadedScene load_scene(const std::string& path, const SceneOptions& options, const std::function<FilmChoice(const SceneDescription&)>& choose, bool quiet) {
+LoadedScene load_description(const std::string& path, const std::function<SceneDescription()>& read, const SceneOptions& options, const FilmChooser& choose) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   LoadedScene loaded;
   loaded.path = path;
-  loaded.description = read_with_overrides(path, options);
+  loaded.description = read();
   const auto [aovs, bins] = choose(loaded.description);
   if (bins.count > 0 && loaded.description.integrator.mode == ColorMode::Rgb) throw UsageError("--spectral: there are no wavelengths in rgb mode");
   limit_cpu_threads(options.threads);
@@ -125,6 +129,27 @@ LoadedScene load_scene(const std::string& path, const SceneOptions& options, con
   }
   loaded.hash = scene_hash(loaded.compiled);
   loaded.load_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return loaded;
+}
+
+}  // namespace
+
+SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options) {
+  return with_options(read_scene(path, overrides_of(options)), options);
+}
+
+LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::string& directory, const SceneOptions& options,
+                            const AovChoice& aovs, const SpectralBins& bins) {
+  const auto read = [&] { return with_options(read_scene_text(text, name, directory, overrides_of(options)), options); };
+  return load_description(name, read, options, [&](const SceneDescription&) { return FilmChoice{aovs, bins}; });
+}
+
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const AovChoice& aovs, const SpectralBins& bins, bool quiet) {
+  return load_scene(path, options, [&](const SceneDescription&) { return FilmChoice{aovs, bins}; }, quiet);
+}
+
+LoadedScene load_scene(const std::string& path, const SceneOptions& options, const FilmChooser& choose, bool quiet) {
+  LoadedScene loaded = load_description(path, [&] { return read_with_overrides(path, options); }, options, choose);
   if (!quiet) {
     for (const std::string& warning : loaded.description.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
     for (const std::string& warning : loaded.compiled.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
