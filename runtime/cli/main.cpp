@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "Help of all commands");
   const std::vector<Command> commands = {add_render(app), add_check(app), add_devices(app), add_compare(app), add_parity(app),
                                          add_bench(app),  add_plot(app),  add_merge(app),   add_info(app),    add_new(app),
-                                         add_view(app)};
+                                         add_view(app),   add_import(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,65 @@
+// A scene on its way from another renderer's file to ours: the JSON, the meshes to be written beside it, and the list of what was not
+// understood. Knows our format's words, neither of the others.
+#pragma once
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace stokes {
+
+/// The file cannot be imported at all. what() is one line, `file:line: error: message`.
+class ImportError : public std::runtime_error {
+ public:
+  ImportError(const std::string& file, int line, const std::string& message)
+      : std::runtime_error(file + ":" + std::to_string(line) + ": error: " + message) {}
+};
+
+/// Triangles as an OBJ file holds them: normals and uvs, where there are any, one a position.
+struct ImportedMesh {
+  std::vector<std::array<double, 3>> positions, normals;
+  std::vector<std::array<double, 2>> uvs;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// The mesh as OBJ text.
+std::string obj_text(const ImportedMesh& mesh);
+
+/// Reads a PLY file (ascii, or binary of either byte order); polygons become fans. Throws std::runtime_error.
+ImportedMesh read_ply(const std::string& path);
+
+using ImportJson = nlohmann::ordered_json;
+
+struct ImportedScene {
+  ImportJson json = ImportJson::object();
+  std::vector<std::pair<std::string, ImportedMesh>> meshes;  ///< by the name of the OBJ file, relative to the scene
+  struct Note {
+    std::string file;
+    int line = 0;
+    std::string message;
+    std::string text() const { return file + ":" + std::to_string(line) + ": note: " + message; }
+  };
+  std::vector<Note> notes;
+
+  void note(const std::string& file, int line, const std::string& message) { notes.push_back({file, line, message}); }
+};
+
+/// Where the scene will be written: names of files are made relative to it, meshes are named after it.
+struct ImportTarget {
+  std::string folder, stem;
+};
+
+/// `path`, named in a file of `source_folder`, as a file of the target's folder would name it.
+std::string relative_file(const ImportTarget& target, const std::string& source_folder, const std::string& path);
+
+/// A spectrum of ours times a number, in the simplest form.
+ImportJson scaled(ImportJson spectrum, double factor);
+/// "eta" and "k" of gold, else of silver, from 400 to 700 nm (rounded from Johnson and Christy 1972).
+ImportJson metal_of(bool gold);
+
+/// Throw ImportError where the file is none of its kind; what has no counterpart becomes a note.
+ImportedScene import_mitsuba(const std::string& path, const ImportTarget& target);
+ImportedScene import_pbrt(const std::string& path, const ImportTarget& target);
+
+}  // namespace stokes

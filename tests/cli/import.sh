@@ -1,0 +1,58 @@
+#!/bin/sh
+# `stokes import`: scenes of Mitsuba and pbrt that are understood as a whole, what is listed by line, and what is refused.
+. "$(dirname -- "$0")/common.sh" "$@"
+SOURCES=$FIXTURES/import
+
+for name in box fog rough; do
+  expect 0 "$STOKES" import "$SOURCES/$name.xml" -o $name.json --strict
+  [ -s err.txt ] && fail "$name.xml: $(cat err.txt)"
+  expect 0 "$STOKES" render $name.json --device reference -q --spp 2
+done
+expect 0 "$STOKES" import "$SOURCES/box.pbrt" -o pbrt.json
+# The patches are said to become triangles, at their lines in the included file; nothing else is said.
+says err.txt 'walls.pbrt:6: note: bilinear'
+says err.txt 'walls.pbrt:10: note: bilinear'
+[ "$(grep -c ': note: ' err.txt)" -eq 2 ] || fail "notes on box.pbrt: $(cat err.txt)"
+expect 2 "$STOKES" import "$SOURCES/box.pbrt" -o pbrt.json --strict --force
+expect 0 "$STOKES" check pbrt.json
+
+# The same box by three ways: the picture of box.xml without its cube is that of box.pbrt.
+"$STOKES" render box.json --device reference -q --spp 64 --size 16x12 --aov variance --set '/surfaces/5/transform={"translate":[0,9,0]}' -o a.exr
+"$STOKES" render pbrt.json --device reference -q --spp 64 --seed 7 --size 16x12 --aov variance -o b.exr
+expect 0 "$STOKES" compare a.exr b.exr
+
+# Nothing is dropped in silence: each thing of strange.xml that has no counterpart, by its line.
+expect 0 "$STOKES" import "$SOURCES/strange.xml" -o strange.json
+for line in 2 5 6 8 10 12; do
+  says err.txt "strange.xml:$line: note: "
+done
+says err.txt 'strange.xml:8: note: .*principled'
+says err.txt 'strange.xml:12: note: <emitter type="point"> has no counterpart'
+expect 0 "$STOKES" check strange.json
+expect 2 "$STOKES" import "$SOURCES/strange.xml" -o strict.json --strict
+[ -s strange_meshes/corner_0.obj ] || fail 'the PLY mesh was not written as OBJ'
+
+# Refused, in one line at its place.
+expect 5 "$STOKES" import "$SOURCES/fog.xml" -o box.json
+says err.txt 'box.json exists already'
+expect 64 "$STOKES" import "$SOURCES/../small.json" -o x.json
+expect 2 "$STOKES" import no-such.xml -o x.json
+says err.txt '^no-such.xml:1: error: '
+printf '<scene version="3.0.0">\n  <shape type="sphere">\n</scene>\n' >torn.xml
+expect 2 "$STOKES" import torn.xml -o x.json
+says err.txt '^torn.xml:[23]: error: not XML'
+printf '<scene version="3.0.0">\n<shape type="sphere"><ref id="gone"/></shape></scene>\n' >ref.xml
+expect 2 "$STOKES" import ref.xml -o x.json
+says err.txt '^ref.xml:2: error: nothing has the id "gone"'
+printf 'WorldBegin\nShape "sphere" "float radius" [ big ]\n' >word.pbrt
+expect 2 "$STOKES" import word.pbrt -o x.json
+says err.txt '^word.pbrt:2: error: .*radius'
+printf 'WorldBegin\nShape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 3 ]\n' >index.pbrt
+expect 2 "$STOKES" import index.pbrt -o x.json
+says err.txt '^index.pbrt:2: error: an index is out of range'
+sed 's/^4 0 1 2 3/4 0 1 2 7/' "$SOURCES/corner.ply" >corner.ply
+printf '<scene version="3.0.0">\n<shape type="ply"><string name="filename" value="corner.ply"/></shape></scene>\n' >ply.xml
+expect 2 "$STOKES" import ply.xml -o x.json
+says err.txt '^ply.xml:2: error: corner.ply cannot be read as PLY: a face refers to vertex 7'
+[ -e x.json ] && fail 'a refused import left a scene'
+finish
