@@ -32,7 +32,7 @@ class MitsubaImport {
   ImportJson material_of(const Node& bsdf);
   ImportJson conductor_of(const Node& bsdf, bool rough);
   ImportJson dielectric_of(const Node& bsdf, bool rough);
-  ImportJson shape_material(const Node& shape);
+  ImportJson shape_material(const Node& shape, bool emits);
   double index_of(const Node& bsdf, const char* name, const char* fallback);
   double alpha_of(const Node& bsdf);
   void expect_one(const Node& bsdf, const char* name);

@@ -80,6 +80,8 @@ ImportJson MitsubaImport::spectrum_of(const Node& given, Role role) {
     const std::vector<double> v = xml_.numbers(node, flat);
     ImportJson j = {{"type", "sampled"}, {"wavelengths", ImportJson::array()}, {"values", ImportJson::array()}};
     for (std::size_t i = 0; i + 1 < v.size(); i += 2) j["wavelengths"].push_back(v[i]), j["values"].push_back(v[i + 1]);
+    // Mitsuba's curves are 0 outside their samples; an index must not be.
+    if (role != Role::Index) j["extrapolate"] = "zero";
     return j;
   }
   if (tag == "float" || tag == "integer" || (tag == "spectrum" && type.empty())) {
@@ -185,12 +187,13 @@ ImportJson MitsubaImport::material_of(const Node& given) {
   return {{"type", "lambertian"}, {"albedo", 0.5}};
 }
 
-ImportJson MitsubaImport::shape_material(const Node& shape) {
+ImportJson MitsubaImport::shape_material(const Node& shape, bool emits) {
   for (const Node& c : shape.children()) {
     const bool reference = std::strcmp(c.name(), "ref") == 0 && std::strcmp(follow(c).name(), "bsdf") == 0;
     if (std::strcmp(c.name(), "bsdf") == 0 || reference) return material_of(c);
   }
-  return {{"type", "lambertian"}, {"albedo", 0.5}};
+  // Mitsuba's default: lamps are black.
+  return {{"type", "lambertian"}, {"albedo", emits ? 0.0 : 0.5}};
 }
 
 ImportJson MitsubaImport::medium_of(const Node& medium) {

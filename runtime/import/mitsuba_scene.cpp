@@ -220,7 +220,7 @@ void MitsubaImport::read_shape(const Node& shape) {
       xml_.use(emitter);
       common["emit"] = spectrum_child(emitter, "radiance", Role::Emission, 1.0);
     }
-  common["material"] = shape_material(shape);
+  common["material"] = shape_material(shape, common.contains("emit"));
   if (const ImportJson inside = shape_medium(shape, "interior"); !inside.is_null()) common["inside"] = inside;
   if (const ImportJson outside = shape_medium(shape, "exterior"); !outside.is_null()) common["outside"] = outside;
   if (xml_.number(shape, "flip_normals", 0) != 0) common["flip"] = true;

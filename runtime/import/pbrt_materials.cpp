@@ -31,6 +31,8 @@ ImportJson PbrtImport::spectrum_of(const PbrtDirective& d, const char* name, Rol
   if (p->type == "spectrum" && v.size() >= 2 && v.size() % 2 == 0) {
     ImportJson j = {{"type", "sampled"}, {"wavelengths", ImportJson::array()}, {"values", ImportJson::array()}};
     for (std::size_t i = 0; i < v.size(); i += 2) j["wavelengths"].push_back(v[i]), j["values"].push_back(v[i + 1]);
+    // pbrt's curves are 0 outside their samples; an index must not be.
+    if (role != Role::Index) j["extrapolate"] = "zero";
     return j;
   }
   if (p->type == "spectrum" && p->words.size() == 1) {
@@ -44,7 +46,6 @@ ImportJson PbrtImport::spectrum_of(const PbrtDirective& d, const char* name, Rol
     if (word.ends_with(".spd")) return {{"type", "file"}, {"filename", relative_file(target_, std::filesystem::path(d.file).parent_path().string(), word)}};
   }
   out_.note(d.file, p->line, "\"" + p->type + " " + p->name + "\" is not understood: a default is taken");
-  (void)role;
   return fallback;
 }
 
