@@ -5,7 +5,6 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 . "$root/.ci/setup.sh"
 
 install_packages "$root"
-python_environment "$root"
 build "$root" all
 cd "$root/build"
 exec ctest --output-on-failure --parallel "$(nproc)" "$@"

@@ -41,21 +41,6 @@ build() {
     fi
     rm -f "$1/.configure.tmp"
   fi
-  # shellcheck disable=SC2086
-  [ -z "${python_options:-}" ] || cmake -S "$1" -B "$1/build" $python_options >/dev/null
   printf 'building\n' >&2
   ninja -C "$1/build" --quiet "$2" >&2
-}
-
-# python_environment ROOT: a Python with what python/ needs, in build/venv. Without a network what is there has to do; sets $python_options
-# for CMake, which lists the package's tests as disabled when it cannot be built.
-python_environment() {
-  venv=$1/build/venv
-  python_options="-DSTOKES_PYTHON=ON -DPython_EXECUTABLE=$venv/bin/python"
-  "$venv/bin/python" -c 'import nanobind, numpy, pytest' 2>/dev/null && return
-  printf 'installing nanobind, numpy and pytest into %s\n' "$venv" >&2
-  if ! { python3 -m venv "$venv" && "$venv/bin/pip" install --quiet --disable-pip-version-check nanobind numpy pytest; } >&2; then
-    printf 'note: the Python package is neither built nor tested: nanobind, numpy and pytest cannot be had\n' >&2
-    python_options=-DSTOKES_PYTHON=OFF
-  fi
 }
