@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/scene_options.h"
+#include "cli/scene_text.h"
 #include "cli/version.h"
 #include "device/error.h"
 #include "image/error.h"
@@ -231,7 +232,7 @@ void translate(const std::exception_ptr& pointer, void*) {
   try {
     std::rethrow_exception(pointer);
   } catch (const SceneError& e) {
-    raise("SceneError", std::string(e.what()), e.pointer());
+    raise("SceneError", std::string(e.what()));
   } catch (const KernelBuildError& e) {
     raise("DeviceError", std::string(e.what()) + "\n" + e.log());
   } catch (const DeviceError& e) {

@@ -14,15 +14,14 @@ class SceneError(ValueError):
     Attributes: ``pointer`` (JSON pointer of what is wrong, "" for the whole scene), ``file``, ``line``, ``column``, ``message``.
     """
 
-    def __init__(self, text: str, pointer: str = "") -> None:
+    def __init__(self, text: str) -> None:
         super().__init__(text)
-        place = re.match(r"(.*?):(\d+):(\d+): error: (.*)$", text)
-        self.pointer = pointer
+        place = re.match(r"(.*?):(\d+):(\d+): error: (?:(/.*?): )?(.*)$", text)
         self.file = place[1] if place else ""
         self.line = int(place[2]) if place else 0
         self.column = int(place[3]) if place else 0
-        message = place[4] if place else text
-        self.message = message.removeprefix(f"{pointer}: ") if pointer else message
+        self.pointer = (place[4] or "") if place else ""
+        self.message = place[5] if place else text
 
 
 class DeviceError(RuntimeError):

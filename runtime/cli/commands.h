@@ -38,6 +38,5 @@ Command add_merge(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_new(CLI::App& root);
 Command add_view(CLI::App& root);
-Command add_import(CLI::App& root);
 
 }  // namespace stokes

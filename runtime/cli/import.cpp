@@ -1,12 +1,13 @@
 // `stokes import`: a scene of Mitsuba 3 or pbrt-v4 to one of ours, and the list of what was not understood. Knows files and options;
 // the formats are runtime/import's.
+#include "cli/import.h"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "image/error.h"
 #include "image/replace_file.h"

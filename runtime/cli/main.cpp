@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/import.h"
 #include "cli/version.h"
 #include "device/error.h"
 #include "image/error.h"

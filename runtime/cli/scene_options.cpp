@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_hash.h"
+#include "cli/scene_text.h"
 #include "cli/version.h"
 #include "layout.h"
 #include "scene/read_scene.h"

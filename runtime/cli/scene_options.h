@@ -59,10 +59,6 @@ LoadedScene load_scene(const std::string& path, const SceneOptions& options, con
 /// Likewise, where the film depends on what the scene holds.
 LoadedScene load_scene(const std::string& path, const SceneOptions& options, const std::function<FilmChoice(const SceneDescription&)>& choose, bool quiet);
 
-/// The same for a scene from text; messages call it `name`, and files it names are looked for in `directory`.
-LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::string& directory, const SceneOptions& options,
-                            const AovChoice& aovs, const SpectralBins& bins);
-
 /// Reads and overrides alone.
 SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options);
 

@@ -29,6 +29,6 @@ SourcePosition SourceMap::find(std::string pointer) const {
 }
 
 SceneError::SceneError(const SourceMap& source, const std::string& pointer, const std::string& message)
-    : std::runtime_error(format_line(source, pointer, message)), pointer_(pointer) {}
+    : std::runtime_error(format_line(source, pointer, message)) {}
 
 }  // namespace stokes

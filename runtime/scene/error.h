@@ -23,11 +23,6 @@ class SceneError : public std::runtime_error {
  public:
   SceneError(const SourceMap& source, const std::string& pointer, const std::string& message);
   explicit SceneError(const std::string& line) : std::runtime_error(line) {}
-  /// The JSON pointer of what is wrong; empty for the whole scene.
-  const std::string& pointer() const { return pointer_; }
-
- private:
-  std::string pointer_;
 };
 
 }  // namespace stokes
