@@ -22,7 +22,7 @@ layout::uint integrator_type(IntegratorKind kind) {
 }
 
 // A power of two `bits` below the smallest one that is at least `value`.
-float quantum(double value, int bits) { return float(std::ldexp(1.0, std::clamp(int(std::ceil(std::log2(value))), -80, 100) - bits)); }
+float quantum(double value, int bits) { return float(std::ldexp(1.0, int(std::clamp(std::ceil(std::log2(value)), -80.0, 100.0)) - bits)); }
 
 layout::uint film_stride(const CompileOptions& o) {
   const unsigned channels = o.film_channels;

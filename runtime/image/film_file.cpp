@@ -3,14 +3,18 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
 #include "image/error.h"
 #include "image/replace_file.h"
+#include "layout.h"
 
 namespace stokes {
 namespace {
@@ -42,24 +46,24 @@ class Header {
     if (found == values_.end()) throw InputError(path_ + ": is damaged: its header has no '" + key + "'");
     return found->second;
   }
-  double number(const std::string& key) const {
-    try {
-      return std::stod(text(key));
-    } catch (const std::logic_error&) {
-      throw InputError(path_ + ": is damaged: '" + key + "' is no number");
-    }
+  /// Finite, and within [low, high].
+  double number(const std::string& key, double low, double high) const { return parse<double>(key, low, high); }
+  std::uint64_t count(const std::string& key, std::uint64_t high = std::numeric_limits<std::uint64_t>::max()) const {
+    return parse<std::uint64_t>(key, 0, high);
   }
-  std::uint64_t count(const std::string& key) const {
-    try {
-      return std::stoull(text(key));
-    } catch (const std::logic_error&) {
-      throw InputError(path_ + ": is damaged: '" + key + "' is no number");
-    }
-  }
-  int integer(const std::string& key) const { return static_cast<int>(number(key)); }
+  int integer(const std::string& key, int low, int high) const { return parse<int>(key, low, high); }
   std::vector<std::pair<std::string, std::string>> notes;
 
  private:
+  template <class Number>
+  Number parse(const std::string& key, Number low, Number high) const {
+    const std::string& digits = text(key);
+    Number value{};
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size()) throw InputError(path_ + ": is damaged: '" + key + "' is no number");
+    if (!(value >= low && value <= high)) throw InputError(path_ + ": is damaged: '" + key + "' is out of range");
+    return value;
+  }
   std::string path_;
   std::map<std::string, std::string> values_;
 };
@@ -93,33 +97,55 @@ std::string header_text(const FilmRecord& r) {
   return out.str();
 }
 
-FilmRecord parse_header(const Header& h) {
+constexpr int kMaxSide = 1 << 20, kMaxSamples = std::numeric_limits<int>::max(), kMaxBins = 10'000;
+constexpr unsigned kKnownChannels = FILM_ALBEDO | FILM_NORMAL | FILM_DEPTH | FILM_FLUORESCENCE | FILM_FLUORESCENT_BINS;
+
+/// What the window, the channels and the words say of each other.
+void check_film(const std::string& path, const Film& f) {
+  const auto damaged = [&](const char* what) { throw InputError(path + ": is damaged: " + what); };
+  if (f.crop_x > f.full_width - f.width || f.crop_y > f.full_height - f.height) damaged("its window lies outside its image");
+  if (f.channels & ~kKnownChannels) damaged("it has unknown channels");
+  if (f.spectral_bins > 0 && !(f.spectral_begin < f.spectral_end)) damaged("its spectral bins are empty");
+  if ((f.channels & FILM_FLUORESCENT_BINS) && (!(f.channels & FILM_FLUORESCENCE) || f.spectral_bins == 0)) damaged("its channels need others");
+  if (f.stride != make_film(1, 1, 0, 0, 1, 1, f.channels, f.spectral_bins, 0, 0, 1, 1).stride) damaged("its words do not fit its channels");
+}
+
+/// No pixel has a negative number of samples, valid or invalid.
+bool counts_are_sound(const Film& film) {
+  constexpr std::size_t kValid = 10, kInvalid = 11;  // words of a pixel, see layout.h
+  for (std::size_t i = 0; i < film.words.size(); i += static_cast<std::size_t>(film.stride))
+    if (film.words[i + kValid] < 0 || film.words[i + kInvalid] < 0) return false;
+  return true;
+}
+
+FilmRecord parse_header(const std::string& path, const Header& h) {
   FilmRecord r;
   r.identity = {h.text("version"), h.text("scene_hash"), h.text("scene"), h.text("device"), h.text("integrator"),
-                static_cast<std::uint32_t>(h.count("seed"))};
-  r.sample_begin = h.integer("sample_begin");
-  r.sample_end = h.integer("sample_end");
-  r.samples_total = h.integer("samples_total");
-  r.render_seconds = h.number("render_seconds");
+                static_cast<std::uint32_t>(h.count("seed", std::numeric_limits<std::uint32_t>::max()))};
+  r.samples_total = h.integer("samples_total", 0, kMaxSamples);
+  r.sample_end = h.integer("sample_end", 0, r.samples_total);
+  r.sample_begin = h.integer("sample_begin", 0, r.sample_end);
+  r.render_seconds = h.number("render_seconds", 0, 1e12);
   r.rays = h.count("rays");
   r.shadow_rays = h.count("shadow_rays");
   r.scatterings = h.count("scatterings");
   r.paths = h.count("paths");
   r.notes = h.notes;
   Film& f = r.film;
-  f.width = h.integer("width");
-  f.height = h.integer("height");
-  f.crop_x = h.integer("crop_x");
-  f.crop_y = h.integer("crop_y");
-  f.full_width = h.integer("full_width");
-  f.full_height = h.integer("full_height");
-  f.channels = static_cast<unsigned>(h.count("channels"));
-  f.spectral_bins = h.integer("spectral_bins");
-  f.spectral_begin = h.number("spectral_begin");
-  f.spectral_end = h.number("spectral_end");
-  f.quantum = h.number("quantum");
-  f.depth_quantum = h.number("depth_quantum");
-  f.stride = h.integer("stride");
+  f.full_width = h.integer("full_width", 1, kMaxSide);
+  f.full_height = h.integer("full_height", 1, kMaxSide);
+  f.width = h.integer("width", 1, f.full_width);
+  f.height = h.integer("height", 1, f.full_height);
+  f.crop_x = h.integer("crop_x", 0, f.full_width);
+  f.crop_y = h.integer("crop_y", 0, f.full_height);
+  f.channels = static_cast<unsigned>(h.count("channels", std::numeric_limits<unsigned>::max()));
+  f.spectral_bins = h.integer("spectral_bins", 0, kMaxBins);
+  f.spectral_begin = h.number("spectral_begin", 0, 1e6);
+  f.spectral_end = h.number("spectral_end", 0, 1e6);
+  f.quantum = h.number("quantum", std::numeric_limits<double>::min(), 1e30);
+  f.depth_quantum = h.number("depth_quantum", std::numeric_limits<double>::min(), 1e30);
+  f.stride = h.integer("stride", FILM_BASE_WORDS, std::numeric_limits<int>::max());
+  check_film(path, f);
   return r;
 }
 
@@ -137,6 +163,9 @@ void append_word(std::string& bytes, std::uint64_t word) {
 
 /// The record's bytes from the end of the file, checked against their own length and checksum.
 std::string read_record(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) throw InputError(path + ": is no regular file");
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw InputError(path + ": cannot be opened");
   const std::uint64_t size = static_cast<std::uint64_t>(file.tellg());
@@ -189,16 +218,20 @@ FilmRecord read_film(const std::string& path) {
   if (bytes.compare(0, sizeof kHead - 1, kHead) != 0) throw InputError(path + ": is of another version of the film format");
   const std::size_t end = bytes.find("\n\n");
   if (end == std::string::npos) throw InputError(path + ": is damaged: its header has no end");
-  FilmRecord record = parse_header(Header(path, bytes.substr(0, end + 1)));
+  FilmRecord record = parse_header(path, Header(path, bytes.substr(0, end + 1)));
   Film& film = record.film;
+  // Within 2^20 * 2^20 * 2^15: no overflow.
   const std::size_t words = static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height) * static_cast<std::size_t>(film.stride);
-  if (bytes.size() != end + 2 + words * sizeof(std::int64_t) + kTrailer) throw InputError(path + ": is damaged: its size does not fit its header");
+  if (bytes.size() < end + 2 + kTrailer || bytes.size() - end - 2 - kTrailer != words * sizeof(std::int64_t)) throw InputError(path + ": is damaged: its size does not fit its header");
   film.words.resize(words);
   std::memcpy(film.words.data(), bytes.data() + end + 2, words * sizeof(std::int64_t));
+  if (!counts_are_sound(film)) throw InputError(path + ": is damaged: a pixel has fewer samples than none");
   return record;
 }
 
 bool holds_film(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() < static_cast<std::streamoff>(kTrailer)) return false;
   file.seekg(-8, std::ios::end);

@@ -2,6 +2,7 @@
 #include "image/film.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -195,6 +196,52 @@ TEST_F(FilmFile, EveryDamageIsRefused) {
     EXPECT_THROW(read_film(path("c")), InputError) << "length " << length;
   }
   EXPECT_THROW(read_film(path("missing")), InputError);
+}
+
+// A header that lies has a right checksum too: what it says is refused by name before it is used, and nothing large is taken for it.
+TEST_F(FilmFile, HeadersThatLieAreRefused) {
+  constexpr std::size_t kTrailer = 24;
+  const std::string bytes = encode_film(record_);
+  const auto error_with = [&](std::string body) {
+    const std::uint64_t words[2] = {fnv1a(body.data(), body.size()), body.size() + kTrailer};
+    body.append(reinterpret_cast<const char*>(words), sizeof words).append(bytes, bytes.size() - 8);
+    std::ofstream(path("b"), std::ios::binary) << body;
+    try {
+      read_film(path("b"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string body = bytes.substr(0, bytes.size() - kTrailer);
+  ASSERT_EQ(error_with(body), "");
+  const auto header_error = [&](const std::string& key, const std::string& value) {
+    const std::size_t at = body.find("\n" + key + " ") + key.size() + 2, end = body.find('\n', at);
+    return error_with(body.substr(0, at) + value + body.substr(end));
+  };
+  const struct { const char *key, *value, *reason; } lies[] = {
+      {"width", "0", "'width' is out of range"}, {"width", "-4", "'width' is out of range"}, {"width", "1e9", "'width' is no number"},
+      {"width", "99999999999", "'width' is no number"}, {"full_width", "2147483647", "'full_width' is out of range"}, {"height", "nan", "'height' is no number"},
+      {"height", "2", "its size does not fit its header"}, {"crop_x", "5", "its window lies outside its image"}, {"crop_y", "-1", "'crop_y' is out of range"},
+      {"channels", "4096", "it has unknown channels"}, {"channels", "16", "its channels need others"}, {"channels", "3", "its words do not fit its channels"},
+      {"spectral_bins", "2000000000", "'spectral_bins' is out of range"}, {"spectral_bins", "1", "its words do not fit its channels"},
+      {"spectral_begin", "500", "its spectral bins are empty"}, {"quantum", "0", "'quantum' is out of range"}, {"quantum", "nan", "'quantum' is out of range"},
+      {"depth_quantum", "inf", "'depth_quantum' is out of range"}, {"stride", "0", "'stride' is out of range"}, {"sample_end", "17", "'sample_end' is out of range"},
+      {"sample_begin", "10", "'sample_begin' is out of range"}, {"seed", "4294967296", "'seed' is out of range"}, {"seed", "1x", "'seed' is no number"},
+      {"rays", "-1", "'rays' is no number"}};
+  for (const auto& [key, value, reason] : lies) EXPECT_EQ(header_error(key, value), path("b") + ": is damaged: " + reason) << key << ' ' << value;
+  std::string negative = body;
+  negative[negative.find("\n\n") + 2 + 8 * 10 + 7] = static_cast<char>(0x80);  // the first pixel's samples
+  EXPECT_EQ(error_with(negative), path("b") + ": is damaged: a pixel has fewer samples than none");
+}
+
+// A pipe would be waited for, a device read without end.
+TEST_F(FilmFile, OnlyRegularFiles) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  for (const std::string& name : {path("pipe"), folder_, std::string("/dev/zero")}) {
+    EXPECT_FALSE(holds_film(name)) << name;
+    EXPECT_THROW(read_film(name), InputError) << name;
+  }
 }
 
 TEST_F(FilmFile, MismatchesAreNamed) {
