@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/import.h"
+#include "cli/supervisor.h"
 #include "cli/version.h"
 #include "device/error.h"
 #include "image/error.h"
@@ -79,5 +80,7 @@ int run_and_report(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file that grows past a limit is an output error with a message, not a signal.
   std::signal(SIGXFSZ, SIG_IGN);
-  return stokes::run_and_report(argc, argv);
+  const int code = stokes::run_and_report(argc, argv);
+  stokes::tell_exit_code(code);
+  return code;
 }

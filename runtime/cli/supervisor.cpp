@@ -139,7 +139,7 @@ class Supervisor {
 
  private:
   void kill_child(pid_t child);
-  std::optional<int> judge_crash(int signal, WorkerAttempt& next);
+  std::optional<int> judge_crash(const std::string& event, WorkerAttempt& next);
   int fail(int code, const std::string& message) const;
   std::string checkpoint_hint() const;
 
@@ -193,7 +193,7 @@ std::optional<int> Supervisor::judge(const Ending& ending, WorkerAttempt& next) 
   if (ending.how != Ending::Stopped && board->exit_code != kStillRunning) return board->exit_code;
   const std::string during = stage_text(board->stage);
   switch (ending.how) {
-    case Ending::Exited: return ending.value;
+    case Ending::Exited: return judge_crash("an exit of the driver's own (code " + std::to_string(ending.value) + ")", next);
     case Ending::Hung:
       return fail(kExitDevice, "the device gave no sign of life for " + std::to_string(ending.value) + " s while " + during + checkpoint_hint());
     case Ending::Stopped:
@@ -209,14 +209,15 @@ std::optional<int> Supervisor::judge(const Ending& ending, WorkerAttempt& next) 
   }
   if (ending.value == SIGKILL)
     return fail(kExitMemory, "the renderer was killed while " + during + ", as systems do when memory runs out" + checkpoint_hint());
-  return judge_crash(ending.value, next);
+  if (!is_crash(ending.value)) return fail(kExitInternal, "ended by signal " + std::to_string(ending.value) + " while " + during + checkpoint_hint());
+  return judge_crash("a crash (signal " + std::to_string(ending.value) + ")", next);
 }
 
-std::optional<int> Supervisor::judge_crash(int signal, WorkerAttempt& next) {
+std::optional<int> Supervisor::judge_crash(const std::string& event, WorkerAttempt& next) {
   const WorkStage stage = board->stage;
-  const std::string what = "a crash (signal " + std::to_string(signal) + ") while " + std::string(stage_text(stage));
+  const std::string what = event + " while " + stage_text(stage);
   const bool on_device = stage == WorkStage::Building || stage == WorkStage::Rendering;
-  if (!on_device || !is_crash(signal)) return fail(kExitInternal, "internal error: " + what + checkpoint_hint());
+  if (!on_device) return fail(kExitInternal, "internal error: " + what + checkpoint_hint());
   const bool progress = board->saves != saves_before_;
   saves_before_ = board->saves;
   crashes_in_vain_ = progress ? 1 : crashes_in_vain_ + 1;
@@ -252,7 +253,7 @@ int supervise(const SupervisorOptions& options, const std::function<int(const Wo
       if (::getppid() != parent) std::_Exit(kExitInternal);
       take_interrupts_from(shared->stops);
       // Threads do not outlive fork(): the destructors of libraries loaded before it would wait for theirs for ever, so they are left out.
-      ::on_exit([](int status, void*) { board->exit_code = status, std::cout.flush(), std::fflush(nullptr), std::_Exit(status); }, nullptr);
+      ::on_exit([](int status, void*) { std::cout.flush(), std::fflush(nullptr), std::_Exit(status); }, nullptr);
       return work(attempt);
     }
     if (const std::optional<int> code = supervisor.judge(supervisor.watch(child), attempt)) return *code;
@@ -265,6 +266,10 @@ void enter_stage(WorkStage stage) {
 
 void tell_alive() {
   if (board) board->beats++;
+}
+
+void tell_exit_code(int code) {
+  if (board) board->exit_code = code;
 }
 
 void tell_checkpoint_saved() {

@@ -32,6 +32,8 @@ int supervise(const SupervisorOptions& options, const std::function<int(const Wo
 void enter_stage(WorkStage stage);
 /// A launch has ended.
 void tell_alive();
+/// All is done, with this exit code; a child that ends without a word was ended by its driver (LLVM's fatal errors call exit).
+void tell_exit_code(int code);
 /// From now on, another attempt may resume.
 void tell_checkpoint_saved();
 

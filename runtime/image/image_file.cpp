@@ -1,11 +1,11 @@
 // Images to EXR and PNG files and back, through OpenImageIO. Knows images, nothing of films or scenes.
 #include "image/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "image/error.h"
 #include "image/replace_file.h"
@@ -15,17 +15,15 @@ namespace {
 
 std::size_t pixel_count(const Image& image) { return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height); }
 
-void write_pixels(const char* format, const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+/// A file's bytes. In memory, because writers to files do not notice a disk that fills up at the last block.
+std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
   auto out = OIIO::ImageOutput::create(format);
-  if (!out) throw std::runtime_error("OpenImageIO has no writer for it: " + OIIO::geterror());
-  if (!out->open(path, spec) || !out->write_image(type, pixels) || !out->close()) throw std::runtime_error(out->geterror());
-}
-
-void append(const std::string& path, const std::string& tail) {
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file.write(tail.data(), static_cast<std::streamsize>(tail.size()));
-  file.close();
-  if (!file) throw std::runtime_error("no room for the film's sums");
+  if (!out) throw OutputError("OpenImageIO has no writer for " + std::string(format) + ": " + OIIO::geterror());
+  OIIO::Filesystem::IOVecOutput memory;
+  const std::string name = std::string("image.") + format;
+  if (!out->set_ioproxy(&memory) || !out->open(name, spec) || !out->write_image(type, pixels) || !out->close())
+    throw OutputError("no " + std::string(format) + " can be made: " + out->geterror());
+  return {memory.buffer().begin(), memory.buffer().end()};
 }
 
 /// Towards the grey of the same luminance (Rec. 709) until no component is negative.
@@ -65,10 +63,7 @@ void write_exr(const std::string& path, const Image& image, const std::string& t
   std::vector<float> pixels(pixel_count(image) * image.channels.size());
   for (std::size_t c = 0; c < image.channels.size(); c++)
     for (std::size_t i = 0; i < pixel_count(image); i++) pixels[i * image.channels.size() + c] = image.channels[c].values[i];
-  replace_file(path, [&](const std::string& temporary) {
-    write_pixels("openexr", temporary, spec, OIIO::TypeDesc::FLOAT, pixels.data());
-    if (!tail.empty()) append(temporary, tail);
-  });
+  write_bytes(path, encode("openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data()) + tail);
 }
 
 void write_png(const std::string& path, const Image& image, double exposure) {
@@ -87,9 +82,7 @@ void write_png(const std::string& path, const Image& image, double exposure) {
   }
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  replace_file(path, [&](const std::string& temporary) {
-    write_pixels("png", temporary, spec, OIIO::TypeDesc::UINT8, pixels.data());
-  });
+  write_bytes(path, encode("png", spec, OIIO::TypeDesc::UINT8, pixels.data()));
 }
 
 Image read_image(const std::string& path) {

@@ -128,7 +128,7 @@ void write_bytes(const std::string& path, const std::string& bytes) {
       }
       done += static_cast<std::size_t>(n);
     }
-    ::close(fd);
+    if (::close(fd) != 0) throw std::runtime_error(std::strerror(errno));
   });
 }
 
