@@ -38,5 +38,7 @@ Command add_merge(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_new(CLI::App& root);
 Command add_view(CLI::App& root);
+Command add_distribute(CLI::App& root);
+Command add_status(CLI::App& root);
 
 }  // namespace stokes

@@ -10,7 +10,7 @@ enum ExitCode {
   kExitDevice = 3,       ///< no usable device, or an OpenCL failure
   kExitMemory = 4,       ///< out of memory
   kExitOutput = 5,       ///< an output cannot be written; the old file is intact
-  kExitInterrupted = 6,  ///< interrupted; the checkpoint is saved
+  kExitInterrupted = 6,  ///< interrupted, and the checkpoint is saved; status: parts are open
   kExitDifferent = 7,    ///< compare or parity found a difference
   kExitUsage = 64        ///< bad command line
 };

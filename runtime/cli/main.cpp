@@ -34,9 +34,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "stokes " + program_version());
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "Help of all commands");
-  const std::vector<Command> commands = {add_render(app), add_check(app), add_devices(app), add_compare(app), add_parity(app),
-                                         add_bench(app),  add_plot(app),  add_merge(app),   add_info(app),    add_new(app),
-                                         add_view(app),   add_import(app)};
+  const std::vector<Command> commands = {add_render(app), add_check(app),  add_devices(app),    add_compare(app), add_parity(app),
+                                         add_bench(app),  add_plot(app),   add_merge(app),      add_info(app),    add_new(app),
+                                         add_view(app),   add_import(app), add_distribute(app), add_status(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

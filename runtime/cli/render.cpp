@@ -29,7 +29,7 @@ struct RenderOptions {
   std::string scene;
   SceneOptions scene_options;
   OutputOptions output;
-  std::string crop, max_time, aov, spectral, samples, checkpoint, display_server;
+  std::string crop, max_time, aov, spectral, samples, checkpoint, display_server, expect_scene;
   std::string progress = "auto";
   std::string launch_timeout = "60s";
   bool resume = false, restart = false, json = false, quiet = false, stats = false;
@@ -229,6 +229,8 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
   const DisplayFeed display = open_display(o.display_server, fs::path(o.scene).filename().string());
 
   const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
+  if (!o.expect_scene.empty() && o.expect_scene != scene.hash)
+    throw InputError(o.scene + ": is not the scene that is expected: its hash is " + scene.hash + ", not " + o.expect_scene);
   RenderJob job;
   job.record = empty_record(o, scene);
   job.sample_end = o.samples.empty() ? job.record.samples_total : parse_samples(o.samples).second;
@@ -283,6 +285,7 @@ Command add_render(CLI::App& root) {
   app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
   app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
   app->add_option("--samples", o->samples, "a:b: only these samples of every pixel, as a part for `stokes merge` [all]");
+  app->add_option("--expect-scene", o->expect_scene, "Refuse the scene if its hash (--json, info) is another [none]");
   app->add_option("--launch-timeout", o->launch_timeout, "Give up a device that is silent so much longer than before")->capture_default_str();
   app->add_option("--checkpoint", o->checkpoint, "Save OUT.checkpoint this often (60s), or none [60s; with a large film seldomer]");
   CLI::Option* resume = app->add_flag("--resume", o->resume, "Continue from OUT.checkpoint where there is one");
