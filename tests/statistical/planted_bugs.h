@@ -75,7 +75,7 @@ inline constexpr PlantedBug kPlantedBugs[] = {
     {"densities_of_heroes_before_the_flight_forgotten", "airlight_chromatic", "flight.cl", "distance) * density_sum(&a->before)", "distance)"},
 
     // ---- Fluorescence --------------------------------------------------------------------------------------------
-    {"excitation_density_forgotten", "fluorescent_patch_2_mis", "fluorescence.cl", "(photon ? li : real(1.0f)) * scale / pdf", "(photon ? li : real(1.0f)) * scale"},
+    {"excitation_density_forgotten", "fluorescent_patch_2_mis", "fluorescence.cl", "(photon ? li : real(1.0f)) * scale / pdf.v[k]", "(photon ? li : real(1.0f)) * scale"},
     {"photon_yield_without_li_over_lo", "fluorescent_patch_2_mis", "fluorescence.cl", "e.v[k] = photon ? e.v[k] / lambda->v[k] : e.v[k];",
      "e.v[k] = photon ? e.v[k] * (1.0f / 520.0f) : e.v[k];"},
     {"branch_probability_missing", "fluorescent_patch_2_mis", "volpath.cl", "throughput_adopt(&path->throughput, &x->throughput, real(1.0f) / x->probability, fluoresces);",
