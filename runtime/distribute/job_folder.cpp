@@ -19,35 +19,46 @@ constexpr int kFormat = 1;
 
 std::string checkpoint_of(const JobPart& part) { return part.file + ".checkpoint"; }
 
+/// Calls `field(name, value...)` for what a manifest says of its film; several values are a list.
+template <class Record, class Field>
+void for_each_field(Record& r, const Field& field) {
+  auto& f = r.film;
+  field("version", r.identity.version);
+  field("scene_hash", r.identity.scene_hash);
+  field("device", r.identity.device);
+  field("seed", r.identity.seed);
+  field("samples", r.samples_total);
+  field("window", f.crop_x, f.crop_y, f.width, f.height);
+  field("full_size", f.full_width, f.full_height);
+  field("channels", f.channels);
+  field("spectral", f.spectral_begin, f.spectral_end, f.spectral_bins);
+  field("quanta", f.quantum, f.depth_quantum);
+  field("stride", f.stride);
+}
+
 Json wanted_to_json(const FilmRecord& r) {
-  const Film& f = r.film;
-  return {{"version", r.identity.version}, {"scene_hash", r.identity.scene_hash}, {"device", r.identity.device}, {"seed", r.identity.seed},
-          {"samples", r.samples_total},    {"window", {f.crop_x, f.crop_y, f.width, f.height}}, {"full_size", {f.full_width, f.full_height}},
-          {"channels", f.channels},        {"spectral", {f.spectral_begin, f.spectral_end, f.spectral_bins}},
-          {"quanta", {f.quantum, f.depth_quantum}}, {"stride", f.stride}};
+  Json j;
+  for_each_field(r, [&](const char* name, const auto& first, const auto&... rest) {
+    if constexpr (sizeof...(rest) == 0)
+      j[name] = first;
+    else
+      j[name] = Json::array({first, rest...});
+  });
+  return j;
 }
 
 FilmRecord wanted_from_json(const Json& j) {
   FilmRecord r;
-  r.identity.version = j.at("version");
-  r.identity.scene_hash = j.at("scene_hash");
-  r.identity.device = j.at("device");
-  r.identity.seed = j.at("seed");
-  r.samples_total = j.at("samples");
-  Film& f = r.film;
-  f.crop_x = j.at("window").at(0);
-  f.crop_y = j.at("window").at(1);
-  f.width = j.at("window").at(2);
-  f.height = j.at("window").at(3);
-  f.full_width = j.at("full_size").at(0);
-  f.full_height = j.at("full_size").at(1);
-  f.channels = j.at("channels");
-  f.spectral_begin = j.at("spectral").at(0);
-  f.spectral_end = j.at("spectral").at(1);
-  f.spectral_bins = j.at("spectral").at(2);
-  f.quantum = j.at("quanta").at(0);
-  f.depth_quantum = j.at("quanta").at(1);
-  f.stride = j.at("stride");
+  for_each_field(r, [&](const char* name, auto& first, auto&... rest) {
+    const Json& value = j.at(name);
+    if constexpr (sizeof...(rest) == 0) {
+      value.get_to(first);
+    } else {
+      std::size_t i = 0;
+      value.at(i++).get_to(first);
+      (value.at(i++).get_to(rest), ...);
+    }
+  });
   return r;
 }
 
