@@ -118,6 +118,23 @@ def render_all(client, job):
         raise Failure(f"part {unit} was not rendered: {message}\n{total - len(units)} of {total} parts are done; the same command continues", code)
 
 
+def start_workers(cluster, client, count):
+    """Starts a cluster's workers. One that dies before it is ready is dropped by Dask for good, so all start again then."""
+    for _ in range(ATTEMPTS):
+        cluster.scale(count)
+        while True:
+            if len(client.nthreads()) >= count:
+                return
+            states = [worker.status.name for worker in list(cluster.workers.values())]
+            if len(states) == count and any(state in ("failed", "closed") for state in states):
+                break
+            time.sleep(0.05)
+        cluster.scale(0)
+        while cluster.workers:
+            time.sleep(0.05)
+    raise Failure(f"error: no worker could be started in {ATTEMPTS} attempts: they died before they were ready", EXIT_INTERNAL)
+
+
 def connect(job, dask):
     """A client, and the cluster to be closed after it."""
     if job["scheduler"]:
@@ -126,8 +143,8 @@ def connect(job, dask):
         except (OSError, ValueError) as error:
             raise Failure(f"error: --scheduler: no answer from {job['scheduler']}: {error}", EXIT_UNAVAILABLE) from None
     # Memory is the renderer's, not Python's, so Dask shall not judge a worker by it.
-    cluster = dask.LocalCluster(n_workers=job["workers"], threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None,
-                                memory_limit=0, silence_logs=logging.CRITICAL)
+    cluster = dask.LocalCluster(n_workers=0, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None, memory_limit=0,
+                                silence_logs=logging.CRITICAL)
     return dask.Client(cluster), cluster
 
 
@@ -143,12 +160,14 @@ def run(job):
         import distributed
     except ImportError:
         raise Failure(f"error: {sys.executable} has no module 'distributed'; `{sys.executable} -m pip install distributed` brings it, "
-                      "and STOKES_PYTHON names another Python", EXIT_UNAVAILABLE) from None
+                      "and STOKES_DASK_PYTHON names another Python", EXIT_UNAVAILABLE) from None
     # A worker that was lost says nothing about the unit it held.
     dask.config.set({"distributed.scheduler.allowed-failures": 100})
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     client, cluster = connect(job, distributed)
     try:
+        if cluster:
+            start_workers(cluster, client, job["workers"])
         render_all(client, job)
     finally:
         client.close(timeout=5)

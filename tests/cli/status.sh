@@ -79,11 +79,11 @@ expect 64 "$STOKES" distribute "$small" -o out.exr --scheduler localhost
 expect 64 "$STOKES" distribute "$small" -o out.exr --workers 2 --plan
 
 # Without Python, or a Python without Dask, one line says what is missing; the plan stays for other engines.
-expect 3 env STOKES_PYTHON=/nowhere/python3 "$STOKES" distribute "$small" --device reference -q -o w.exr --workers 1
+expect 3 env STOKES_DASK_PYTHON=/nowhere/python3 "$STOKES" distribute "$small" --device reference -q -o w.exr --workers 1
 says err.txt '/nowhere/python3 cannot be run'
 printf '#!/bin/sh\nexec /usr/bin/env python3 -S -E "$@"\n' >bare
 chmod +x bare
-expect 3 env STOKES_PYTHON="$WORK/bare" "$STOKES" distribute "$small" --device reference -q -o w.exr --workers 1
+expect 3 env STOKES_DASK_PYTHON="$WORK/bare" "$STOKES" distribute "$small" --device reference -q -o w.exr --workers 1
 says err.txt "pip install distributed"
 [ "$(wc -l <err.txt)" -eq 1 ] || fail 'the error is more than a line'
 finish

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Renders by `stokes distribute --workers 2` while a worker, chosen at random, is killed by SIGKILL at a random time, and compares the
-bits with one render's. Usage: kill_workers.py STOKES [--count N] [--spp N] [--seed N]; exit 77 where the module distributed is missing."""
+bits with one render's. Usage: kill_workers.py STOKES [--count N] [--spp N] [--seed N] [--starting]; with --starting the worker is killed
+before it has said that it is ready. Exit 77 where the module distributed is missing."""
 import argparse
 import importlib.util
 import os
@@ -38,12 +39,13 @@ def rendering(pid):
     return any(b"\0render\0" in pathlib.Path(f"/proc/{child}/cmdline").read_bytes() for child in children(pid))
 
 
-def kill_one(process, chance, delay):
-    """Waits until a worker renders, then `delay` seconds, and kills one of the workers. Returns its id, or None if all was over."""
+def kill_one(process, chance, delay, starting):
+    """Waits until a worker renders (`starting`: until one is there), then `delay` seconds, and kills one of the workers. Returns its id, or
+    None if all was over."""
     while process.poll() is None:
         try:
             candidates = workers(process.pid)
-            if any(rendering(pid) for pid in candidates):
+            if starting and candidates or any(rendering(pid) for pid in candidates):
                 time.sleep(delay)
                 victim = chance.choice(workers(process.pid))
                 os.kill(victim, signal.SIGKILL)
@@ -54,13 +56,13 @@ def kill_one(process, chance, delay):
     return None
 
 
-def run_one(stokes, folder, spp, chance):
+def run_one(stokes, folder, spp, chance, starting):
     """One render with one worker killed. Returns (victim, parts that were there at its death)."""
     job, output = folder / "job", folder / "out.exr"
     command = [stokes, "distribute", SCENE, "-o", output, "--workers", "2", "--parts", str(PARTS), "--dir", job, "--device", "reference", "-q",
                "--spp", str(spp)]
-    process = subprocess.Popen(command, env={**os.environ, "STOKES_PYTHON": sys.executable}, stdout=subprocess.DEVNULL)
-    victim = kill_one(process, chance, chance.uniform(0, 1.5))
+    process = subprocess.Popen(command, env={**os.environ, "STOKES_DASK_PYTHON": sys.executable}, stdout=subprocess.DEVNULL)
+    victim = kill_one(process, chance, chance.uniform(0, 0.3 if starting else 1.5), starting)
     there = len(list(job.glob("part-*.film")))
     code = process.wait(timeout=300)
     if code != 0:
@@ -74,6 +76,7 @@ def main():
     parser.add_argument("--count", type=int, default=1)
     parser.add_argument("--spp", type=int, default=16000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--starting", action="store_true")
     options = parser.parse_args()
     if not importlib.util.find_spec("distributed"):
         print(f"kill_workers: skipped: {sys.executable} has no module 'distributed'")
@@ -87,7 +90,7 @@ def main():
             attempts += 1
             folder = pathlib.Path(name) / str(attempts)
             folder.mkdir()
-            victim, there = run_one(options.stokes, folder, options.spp, chance)
+            victim, there = run_one(options.stokes, folder, options.spp, chance, options.starting)
             same = subprocess.run([options.stokes, "compare", whole, folder / "out.exr", "--exact"], stdout=subprocess.DEVNULL).returncode == 0
             if not same:
                 raise SystemExit("kill_workers: FAILED: the bits differ")

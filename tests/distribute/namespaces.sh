@@ -42,7 +42,7 @@ for i in 1 2; do
 done
 
 "$stokes" render "$scene" --device reference -q --spp "$spp" -o whole.exr >/dev/null
-ip netns exec "${tag}0" env STOKES_PYTHON="$python" "$stokes" distribute "$scene" --device reference --spp "$spp" --parts 12 --dir job \
+ip netns exec "${tag}0" env STOKES_DASK_PYTHON="$python" "$stokes" distribute "$scene" --device reference --spp "$spp" --parts 12 --dir job \
   --scheduler tcp://10.83.0.1:8786 -o out.exr
 "$stokes" compare whole.exr out.exr --exact >/dev/null
 grep -h -o 'Starting established connection.*' scheduler.log | sort -u | head -4 || true
