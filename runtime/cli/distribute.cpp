@@ -139,7 +139,7 @@ int run_driver(const DistributeOptions& o, const Job& job) {
   const char* chosen = std::getenv("STOKES_DASK_PYTHON");
   const std::string python = chosen && *chosen ? chosen : "python3";
   try {
-    return run_process({python, "-c", driver_files().at("drive"), drive.dump()});
+    return run_process({python, "-c", driver_files().at("drive.py"), drive.dump()});
   } catch (const std::system_error& e) {
     std::fprintf(stderr, "error: %s cannot be run: %s; STOKES_DASK_PYTHON names a Python that has the module 'distributed'\n", python.c_str(), e.code().message().c_str());
     return kExitDevice;

@@ -26,19 +26,19 @@ int run_new(NewOptions o) {
   const auto& files = starter_files();
   // `stokes new FILE.json`: the only word is the file.
   if (o.path.empty()) std::swap(o.path, o.kind), o.kind = "box";
-  if (!files.count(o.kind) || o.kind == "schema")
+  if (!files.count(o.kind + ".json") || o.kind == "schema")
     throw UsageError("there is no starter '" + o.kind + "'; there are box, skin and fluorescent");
-  if (files.count(o.path) && fs::path(o.path).extension().empty()) throw UsageError("new needs the name of a file: stokes new " + o.path + " my_scene.json");
+  if (files.count(o.path + ".json")) throw UsageError("new needs the name of a file: stokes new " + o.path + " my_scene.json");
   const fs::path schema = fs::path(o.path).parent_path() / kSchema;
   if (fs::path(o.path).filename() == kSchema) throw UsageError(std::string("the scene cannot be called ") + kSchema + ": that is the schema beside it");
   std::error_code error;
   if (!o.force && fs::exists(fs::symlink_status(o.path, error))) throw OutputError(o.path + " exists already; --force overwrites it");
   require_writable(o.path);
-  write_bytes(o.path, files.at(o.kind));
+  write_bytes(o.path, files.at(o.kind + ".json"));
   std::printf("%s\n", o.path.c_str());
   // A schema that is there is left alone: it may be another program's, or newer.
   if (!o.no_schema && !fs::exists(fs::symlink_status(schema, error))) {
-    write_bytes(schema.string(), files.at("schema"));
+    write_bytes(schema.string(), files.at(kSchema));
     std::printf("%s\n", schema.string().c_str());
   }
   return kExitDone;

@@ -5,7 +5,7 @@
 
 namespace stokes {
 
-/// Texts by name: the starters "box", "skin", "fluorescent", and "schema".
+/// Texts by file name: the starters "box.json", "skin.json", "fluorescent.json", and "schema.json".
 const std::map<std::string, std::string>& starter_files();
 
 }  // namespace stokes

@@ -5,7 +5,7 @@
 
 namespace stokes {
 
-/// Texts by name: "drive".
+/// Texts by file name: "drive.py".
 const std::map<std::string, std::string>& driver_files();
 
 }  // namespace stokes

@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "view/frame.h"
+#include "view/pages.h"
 
 namespace stokes {
-
-const std::string& report_page();  // embedded
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -170,7 +168,7 @@ std::string comparison_report(const std::string& title, const std::vector<Report
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string escaped;  // nothing in it may end the element that it stands in
   for (const char c : json) c == '<' ? escaped += "\\u003c" : escaped += c;
-  std::string page = report_page();
+  std::string page = page_files().at("report.html");
   const std::string mark = "<!-- data -->";
   return page.replace(page.find(mark), mark.size(), "<script type=\"application/json\" id=\"data\">" + escaped + "</script>");
 }

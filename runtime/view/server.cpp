@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "view/local_only.h"
+#include "view/pages.h"
 #include "view/state_json.h"
 
 namespace stokes {
@@ -104,7 +105,7 @@ struct ViewServer::Impl {
       response.set_header("Content-Security-Policy",
                           "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self'; img-src 'self' data: "
                           "blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-      response.set_content(viewer_page(), "text/html; charset=utf-8");
+      response.set_content(page_files().at("viewer.html"), "text/html; charset=utf-8");
     });
     http.Get("/state", [this](const Request&, Response& response) { response.set_content(state_text(session.state()), "application/json"); });
     http.Get("/frame", [this](const Request& request, Response& response) {

@@ -32,7 +32,4 @@ class ViewServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The page: one HTML file with everything in it.
-const std::string& viewer_page();
-
 }  // namespace stokes

@@ -11,6 +11,7 @@
 #include "view/frame.h"
 #include "view/local_only.h"
 #include "view/orbit.h"
+#include "view/pages.h"
 #include "view/report.h"
 #include "view/server.h"
 #include "view/state_json.h"
@@ -188,9 +189,11 @@ TEST(State, AnErrorBringsItsLine) {
 }
 
 TEST(Page, NeedsNothingFromOutside) {
-  for (const char* foreign : {"http://", "https://", " src=", "@import", "url(", "<!-- include"}) EXPECT_THAT(viewer_page(), Not(HasSubstr(foreign)));
-  EXPECT_THAT(viewer_page(), HasSubstr("new EventSource(\"/events\")"));
-  EXPECT_THAT(viewer_page(), HasSubstr("</html>"));
+  for (const auto& [name, page] : page_files()) {
+    for (const char* foreign : {"http://", "https://", " src=", "@import", "url(", "<!-- include"}) EXPECT_THAT(page, Not(HasSubstr(foreign))) << name;
+    EXPECT_THAT(page, HasSubstr("</html>")) << name;
+  }
+  EXPECT_THAT(page_files().at("viewer.html"), HasSubstr("new EventSource(\"/events\")"));
 }
 
 Image tiny(float r, float variance) {
