@@ -33,7 +33,7 @@ constexpr int kStillRunning = -1;
 
 /// What parent and child both see.
 struct Board {
-  std::atomic<int> stops{0};      ///< signals to stop, by the parent
+  std::atomic<bool> stop{false};  ///< by the parent: save and end
   std::atomic<WorkStage> stage{WorkStage::Loading};
   std::atomic<unsigned> beats{0};
   std::atomic<bool> checkpoint{false};  ///< saved, in any attempt
@@ -166,10 +166,11 @@ Ending Supervisor::watch(pid_t child) {
     if (signal == SIGINT || signal == SIGTERM) {
       const WorkStage stage = board->stage;
       const bool early = stage == WorkStage::Loading || stage == WorkStage::Building;
-      if (early || board->stops++ > 0) {
+      if (is_another_stop() || early) {
         kill_child(child);
         return {Ending::Stopped, early ? 0 : signal};
       }
+      board->stop = true;
     }
     if (watchdog.is_hung(child)) {
       const double limit = watchdog.limit();
@@ -251,7 +252,7 @@ int supervise(const SupervisorOptions& options, const std::function<int(const Wo
     if (child == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (::getppid() != parent) std::_Exit(kExitInternal);
-      take_interrupts_from(shared->stops);
+      take_interrupts_from(shared->stop);
       // Threads do not outlive fork(): the destructors of libraries loaded before it would wait for theirs for ever, so they are left out.
       ::on_exit([](int status, void*) { std::cout.flush(), std::fflush(nullptr), std::_Exit(status); }, nullptr);
       return work(attempt);

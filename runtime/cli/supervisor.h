@@ -24,8 +24,8 @@ enum class WorkStage { Loading, Building, Rendering, Writing };
 /// Calls `work` in a child process and returns there what it returns; to be called before other threads are made that `work` needs. In the
 /// parent, returns the exit code once the child has ended. A child that crashes while building or rendering is followed by another, as
 /// long as each saves a checkpoint; two that do not are the end (three while building, the last without optimisation). SIGINT and SIGTERM
-/// end the child before its first sample; later, the first makes interrupted() true in the child and a second ends both. Killing the parent
-/// kills the child. Where no process can be made, `work` is called in this one.
+/// end the child before its first sample; later, the first makes interrupted() true in the child and another (is_another_stop) ends both.
+/// Killing the parent kills the child. Where no process can be made, `work` is called in this one.
 int supervise(const SupervisorOptions& options, const std::function<int(const WorkerAttempt&)>& work);
 
 /// What the child tells the supervisor; without one, nothing happens.
