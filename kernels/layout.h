@@ -392,7 +392,9 @@ LAYOUT_CHECK(Launch, 48);
 #define COUNTER_SHADOW_RAYS 1
 #define COUNTER_SCATTERINGS 2
 #define COUNTER_PATHS 3
-#define COUNTER_COUNT 4
+#define COUNTER_FLIGHTS 4
+#define COUNTER_LANE_STEPS 5  // rounds of the loop times LANES: flights, and what lanes wait for others
+#define COUNTER_COUNT 6
 
 #ifndef __OPENCL_VERSION__
 }  // namespace stokes::layout

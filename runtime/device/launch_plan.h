@@ -24,6 +24,8 @@ class LaunchPlan {
   Range next() const;
   /// Tells that `range`, which next() gave, has run and how long it took.
   void complete(const Range& range, double seconds);
+  /// Changes the target time of the launches to come.
+  void aim(double target_seconds) { target_seconds_ = target_seconds; }
 
   /// Whether every pixel now has the same number of samples.
   bool between_passes() const { return pixel_ == 0; }

@@ -144,4 +144,14 @@ inline constexpr const char* kRgbScene = R"({
   ]
 })";
 
+/// 200 mean free paths across, nearly without absorption.
+inline constexpr const char* kThickBallScene = R"({
+  "camera": {"transform": {"from": [0, 0, 4], "at": [0, 0, 0], "up": [0, 1, 0]}, "vfov": 22, "resolution": [16, 16]},
+  "background": {"type": "constant", "value": 1},
+  "integrator": {"type": "path tracer volumetric mis", "max bounces": 100000, "russian roulette": false},
+  "media": [{"type": "homogeneous", "name": "milk", "sigma_t": 100, "albedo": 0.9999, "g": 0}],
+  "materials": [{"type": "interface", "name": "boundary"}],
+  "surfaces": [{"type": "sphere", "name": "ball", "radius": 1, "material": "boundary", "inside": "milk", "outside": "vacuum"}]
+})";
+
 }  // namespace stokes::tests

@@ -2,6 +2,7 @@
 // is rendered in several ways and every word of the film is compared. Knows no OpenCL and no truth: all ways may be wrong alike.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -151,6 +152,24 @@ TEST(LanesTest, AnotherSeedIsAnotherImage) {
   Film other = empty_film(scene, whole(scene));
   renderer.render_samples(other, kSeed + 1, 0, kSamples, nullptr);
   EXPECT_NE(difference(image, other), "");
+}
+
+// A few paths of a thick medium that absorbs little outlive all others. Launches adapt, so that lanes do not wait for them most of the time,
+// and the image does not.
+TEST(LanesTest, AreBusyWhereFewPathsAreVeryLong) {
+  const CompiledScene scene = compile(kThickBallScene, 0);
+  constexpr int kMany = 256;
+  Renderer renderer = make_renderer(scene, 8, 1);
+  Film film = empty_film(scene, whole(scene));
+  renderer.render_samples(film, kSeed, 0, kMany, nullptr);
+  const RenderCounters& c = renderer.counters();
+  std::printf("flights %llu of %llu lane steps\n", static_cast<unsigned long long>(c.flights), static_cast<unsigned long long>(c.lane_steps));
+  EXPECT_GT(static_cast<double>(c.flights), 0.5 * static_cast<double>(c.lane_steps));
+
+  Film parts = empty_film(scene, whole(scene));
+  Renderer other = make_renderer(scene, 8);
+  for (int i = 0; i < kMany; i += kMany / 4) film_accumulate(parts, render(scene, other, whole(scene), i, i + kMany / 4));
+  EXPECT_EQ(difference(film, parts), "");
 }
 
 }  // namespace
