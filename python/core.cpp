@@ -21,7 +21,7 @@
 #include "image/error.h"
 #include "image/image_file.h"
 #include "image/parity.h"
-#include "scene/error.h"
+#include "scene/memory_error.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -101,12 +101,6 @@ Film render_film(const LoadedScene& scene, Backend& backend, Watch& watch, doubl
   return film;
 }
 
-std::vector<std::string> warnings_of(const LoadedScene& scene) {
-  std::vector<std::string> all = scene.description.warnings;
-  all.insert(all.end(), scene.compiled.warnings.begin(), scene.compiled.warnings.end());
-  return all;
-}
-
 Picture render_picture(const Request& request, Watch& watch) {
   const LoadedScene scene = load(request);
   const auto backend = make_backend(scene.compiled, scene.device, {request.options.threads, request.options.kernel_dir});
@@ -126,7 +120,7 @@ Picture render_picture(const Request& request, Watch& watch) {
   out.load_seconds = scene.load_seconds;
   out.build_seconds = backend->build_seconds();
   out.render_seconds = record.render_seconds;
-  out.warnings = warnings_of(scene);
+  out.warnings = scene.compiled.warnings;
   for (const std::string& warning : backend->warnings()) out.warnings.push_back(warning);
   return out;
 }
@@ -157,6 +151,8 @@ Comparison compare(Request request, const ParityOptions& options, Watch& watch) 
 Request make_request(std::optional<std::string> text, std::string path, std::string directory, const nb::dict& o) {
   Request r;
   r.scene = {std::move(text), std::move(path), std::move(directory)};
+  // A dict is the caller's own: whoever writes a file's name into it means it.
+  r.options.allow_outside = r.scene.text.has_value() || nb::cast<bool>(o["allow_outside"]);
   const auto given = [&](const char* key) { return o.contains(key) && !nb::object(o[key]).is_none(); };
   if (given("device")) r.options.device = nb::cast<std::string>(o["device"]);
   if (given("spp")) r.options.samples = nb::cast<int>(o["spp"]);
@@ -231,6 +227,8 @@ void raise(const char* name, const Arguments&... arguments) {
 void translate(const std::exception_ptr& pointer, void*) {
   try {
     std::rethrow_exception(pointer);
+  } catch (const SceneMemoryError& e) {
+    PyErr_SetString(PyExc_MemoryError, e.what());
   } catch (const SceneError& e) {
     raise("SceneError", std::string(e.what()));
   } catch (const KernelBuildError& e) {
@@ -243,7 +241,7 @@ void translate(const std::exception_ptr& pointer, void*) {
   } catch (const UsageError& e) {
     const std::string text = e.what();
     PyErr_SetString(PyExc_ValueError, text.starts_with("--") ? text.c_str() + 2 : text.c_str());
-  } catch (const MemoryError& e) {
+  } catch (const OutOfMemory& e) {
     PyErr_SetString(PyExc_MemoryError, e.what());
   } catch (const OutputError& e) {
     PyErr_SetString(PyExc_OSError, e.what());

@@ -60,6 +60,7 @@ def _options(
         raise ValueError(f"wavelengths_per_path: {rest['wavelengths_per_path']} is none of 1, 4 and 8")
     return {
         **rest,
+        "allow_outside": os.environ.get("STOKES_ALLOW_OUTSIDE", "") not in ("", "0", "false"),
         "device": rest.get("device") or os.environ.get("STOKES_DEVICE") or "auto",
         "size": None if size is None else "x".join(str(int(n)) for n in size),
         "aov": aov if aov is None or isinstance(aov, str) else ",".join(aov) or None,
@@ -90,7 +91,8 @@ def render(
     What is None is as the scene says.
 
     Args:
-        scene: a scene file, or the same as a dict; numpy values may stand in it.
+        scene: a scene file, or the same as a dict; numpy values may stand in it. The files that a dict names may lie anywhere, those of a
+            scene file in or below its folder, that one's parent or the current one, unless $STOKES_ALLOW_OUTSIDE is 1.
         spp: samples per pixel.
         device: "auto", "reference" (the CPU integrator), "gpu", "cpu", "P:D" or part of a name; None: $STOKES_DEVICE, else "auto".
         aov: "albedo", "normal", "depth", "variance", "fluorescence", several of them, or "all"; see Render.aovs.

@@ -132,7 +132,7 @@ std::pair<ordered_json, int> run_apart(const BenchCase& c, const BenchOptions& o
   if (pipe(ends) != 0) throw OutputError("no pipe can be made");
   std::fflush(nullptr);
   const pid_t child = fork();
-  if (child < 0) throw MemoryError("no process can be made for " + c.name);
+  if (child < 0) throw OutOfMemory("no process can be made for " + c.name);
   if (child == 0) {
     close(ends[0]);
     if (o.parts.cold) caches.use();

@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/scene_options.h"
-#include "scene/error.h"
+#include "scene/memory_error.h"
 
 namespace stokes {
 namespace {
@@ -22,7 +22,6 @@ bool check_scene(const std::string& path, const CheckOptions& o) {
   try {
     const SceneDescription scene = read_with_overrides(path, o.scene_options);
     const CompiledScene compiled = compile_scene(scene);
-    for (const std::string& warning : scene.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
     for (const std::string& warning : compiled.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
     if (!o.quiet)
       std::printf("%s: ok (%ux%u, %d samples, %zu surfaces, %u quads, %u spheres, %u ellipsoids, %u triangles, %u lights)\n", path.c_str(),
@@ -30,6 +29,8 @@ bool check_scene(const std::string& path, const CheckOptions& o) {
                   compiled.header.quad_count, compiled.header.sphere_count, compiled.header.ellipsoid_count,
                   compiled.header.triangle_count, compiled.header.light_count);
     return true;
+  } catch (const SceneMemoryError&) {
+    throw;  // no fault of the scene's
   } catch (const SceneError& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return false;
@@ -49,6 +50,7 @@ Command add_check(CLI::App& root) {
   CLI::App* app = root.add_subcommand("check", "Parses and validates scenes");
   app->add_option("scenes", o->scenes, "SCENE.json ...")->required();
   app->add_option("--set", o->scene_options.settings, "/json/pointer=VALUE: changes a value first; may be given again")->take_all();
+  o->scene_options.add_limits_to(*app);
   app->add_flag("-q,--quiet", o->quiet, "Only warnings and errors");
   return {app, [o] { return run_check(*o); }};
 }

@@ -21,12 +21,6 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A need that this machine cannot meet: need and have are in what(). Exit code 4.
-class MemoryError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 Command add_render(CLI::App& root);
 Command add_check(CLI::App& root);
 Command add_devices(CLI::App& root);

@@ -52,6 +52,8 @@ std::vector<std::string> render_words(const DistributeOptions& o, int samples) {
   if (s.wavelengths_per_path) add("--wavelengths-per-path", std::to_string(*s.wavelengths_per_path));
   for (const std::string& setting : s.settings) add("--set", setting);
   if (!s.kernel_dir.empty()) add("--kernel-dir", absolute(s.kernel_dir));
+  for (const std::string& limit : s.limits) add("--limit", limit);
+  if (s.allow_outside) words.push_back("--allow-outside");
   add("--crop", o.crop);
   add("--aov", o.aov);
   add("--spectral", o.spectral);

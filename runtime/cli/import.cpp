@@ -13,6 +13,7 @@
 #include "image/replace_file.h"
 #include "import/imported_scene.h"
 #include "scene/error.h"
+#include "scene/read_context.h"
 #include "scene/read_scene.h"
 
 namespace stokes {
@@ -78,7 +79,12 @@ int run_import(ImportOptions o) {
   // What the importer wrote must be a scene; if it is not, the reader says where to mend it.
   bool sound = true;
   try {
-    read_scene(o.output);
+    ReadOptions reading;
+    reading.limits.allow_outside = true;
+    const SceneDescription written = read_scene(o.output, {}, reading);
+    for (const std::string& file : written.files)
+      if (!lies_where_allowed(file, written.directory))
+        std::fprintf(stderr, "%s names %s, so rendering it needs --allow-outside\n", o.output.c_str(), file.c_str());
   } catch (const SceneError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     sound = false;

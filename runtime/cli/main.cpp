@@ -13,7 +13,8 @@
 #include "cli/version.h"
 #include "device/error.h"
 #include "image/error.h"
-#include "scene/error.h"
+#include "input/limits.h"
+#include "scene/memory_error.h"
 
 namespace stokes {
 namespace {
@@ -55,6 +56,8 @@ int run_and_report(int argc, char** argv) {
     return code;
   } catch (const UsageError& e) {
     return fail(std::string("error: ") + e.what() + "\nstokes COMMAND --help lists the options", kExitUsage);
+  } catch (const SceneMemoryError& e) {
+    return fail(e.what(), kExitMemory);
   } catch (const SceneError& e) {
     return fail(e.what(), kExitBadInput);
   } catch (const InputError& e) {
@@ -65,7 +68,7 @@ int run_and_report(int argc, char** argv) {
     return fail(std::string("error: ") + e.what(), e.out_of_memory() ? kExitMemory : kExitDevice);
   } catch (const OutputError& e) {
     return fail(std::string("error: ") + e.what(), kExitOutput);
-  } catch (const MemoryError& e) {
+  } catch (const OutOfMemory& e) {
     return fail(std::string("error: ") + e.what(), kExitMemory);
   } catch (const std::bad_alloc&) {
     return fail("error: out of memory", kExitMemory);

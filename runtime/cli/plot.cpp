@@ -13,6 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/scene_options.h"
 #include "image/error.h"
 #include "image/image_file.h"
 #include "image/replace_file.h"
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr int kSamples = 20000;  // of each curve of a fluorescent material, where the user asks for no number
 
 struct PlotOptions {
+  SceneOptions scene_options;  // of these only the limits
   std::string what, output, role = "reflectance";
   int samples = -1, width = 960, height = 540;
 };
@@ -86,8 +88,8 @@ void add_medium(Drawing& drawing, const MediumDescription& m) {
 }
 
 /// All named things of a scene, or the one called `wanted`.
-Drawing plot_scene(const std::string& path, const std::string& wanted) {
-  const SceneDescription scene = read_scene(path);
+Drawing plot_scene(const std::string& path, const std::string& wanted, const InputLimits& limits) {
+  const SceneDescription scene = read_scene(path, {}, {limits, {}});
   Drawing drawing;
   Plot& plot = drawing.plot;
   plot.title = fs::path(path).filename().string() + (wanted.empty() ? "" : "#" + wanted);
@@ -130,8 +132,10 @@ Drawing plot_expression(const PlotOptions& o) {
     throw UsageError("plot: '" + o.what + "' is neither a scene (.json), a curve (.csv), an illuminant (D65, A, E, F11), blackbody:K, gaussian:MEAN:STDDEV, "
                      "box:FROM:TO, nor a spectrum in the scene format's JSON");
   // A sum of one holds any form of spectrum, numbers and [r, g, b] included.
+  InputLimits limits = o.scene_options.input_limits();
+  limits.allow_outside = true;  // who types a file's name means it
   const std::string text = "{\"camera\":{},\"spectra\":[{\"name\":\"it\",\"type\":\"sum\",\"of\":[" + json + "]}]}";
-  const SceneDescription scene = read_scene_text(text, "expression", ".");
+  const SceneDescription scene = read_scene_text(text, "expression", ".", {}, {limits, {}});
   Drawing drawing;
   Plot& plot = drawing.plot;
   plot.title = o.what;
@@ -175,7 +179,7 @@ int run_plot(PlotOptions o) {
   if (o.output.empty()) o.output = (is_scene ? fs::path(path).stem().string() : "spectrum") + ".svg";
   if (!ends_with(o.output, ".svg") && !ends_with(o.output, ".png")) throw UsageError("-o: '" + o.output + "' ends in neither .svg nor .png");
   require_writable(o.output);
-  Drawing drawing = is_scene ? plot_scene(path, hash == std::string::npos ? "" : o.what.substr(hash + 6)) : plot_expression(o);
+  Drawing drawing = is_scene ? plot_scene(path, hash == std::string::npos ? "" : o.what.substr(hash + 6), o.scene_options.input_limits()) : plot_expression(o);
   const bool fluoresces = hash != std::string::npos && !drawing.dyes.empty();
   const int samples = o.samples >= 0 ? o.samples : fluoresces ? kSamples : 0;
   if (samples > 0) draw_samples(drawing, samples);
@@ -199,6 +203,7 @@ Command add_plot(CLI::App& root) {
       ->check(CLI::Range(0, 100000000));
   app->add_option("--role", o->role, "How an expression is used: reflectance, emission, index, coefficient, dye")
       ->capture_default_str()->check(CLI::IsMember({"reflectance", "emission", "index", "coefficient", "dye"}));
+  o->scene_options.add_limits_to(*app);
   app->add_option("--width", o->width, "Pixels")->capture_default_str()->check(CLI::Range(200, 10000));
   app->add_option("--height", o->height, "Pixels")->capture_default_str()->check(CLI::Range(150, 10000));
   return {app, [o] { return run_plot(*o); }};

@@ -5,33 +5,19 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <stdexcept>
 
 #include "cli/commands.h"
 #include "cli/scene_hash.h"
 #include "cli/scene_text.h"
 #include "cli/version.h"
+#include "compiled/memory_estimate.h"
 #include "layout.h"
 #include "scene/read_scene.h"
 
 namespace stokes {
 namespace {
-
-/// Bytes that the host can still give, or 0 when that is not known.
-std::uint64_t available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  for (std::uint64_t kibibytes = 0; file >> key >> kibibytes; std::getline(file, unit))
-    if (key == "MemAvailable:") return kibibytes * 1024;
-  return 0;
-}
-
-std::string gibibytes(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f GiB", static_cast<double>(bytes) / (1024.0 * 1024 * 1024));
-  return text;
-}
 
 CompileOptions compile_options(const DeviceChoice& device, const AovChoice& aovs, const SpectralBins& bins) {
   CompileOptions options;
@@ -41,6 +27,18 @@ CompileOptions compile_options(const DeviceChoice& device, const AovChoice& aovs
   options.spectral_begin = bins.begin;
   options.spectral_end = bins.end;
   return options;
+}
+
+void override_settings(SceneDescription& scene, const SceneOptions& options) {
+  if (options.samples) scene.samples = *options.samples;
+  if (options.seed) scene.seed = *options.seed;
+  if (!options.size.empty()) std::tie(scene.camera.width, scene.camera.height_pixels) = parse_size(options.size);
+  if (!options.integrator.empty()) {
+    scene.integrator.kind = parse_integrator(options.integrator);
+    scene.integrator.name = options.integrator;
+  }
+  if (!options.mode.empty()) scene.integrator.mode = options.mode == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
+  if (options.wavelengths_per_path) scene.integrator.wavelengths_per_path = *options.wavelengths_per_path;
 }
 
 }  // namespace
@@ -57,13 +55,34 @@ void SceneOptions::add_to(CLI::App& command) {
   command.add_option("--wavelengths-per-path", wavelengths_per_path, "1, 4 or 8 [the scene's, else 4]")->check(CLI::IsMember({1, 4, 8}));
   command.add_option("--set", settings, "/json/pointer=VALUE: changes a value of the scene file; may be given again")->take_all();
   command.add_option("--threads", threads, "CPU threads; 0 is all")->capture_default_str()->check(CLI::Range(0, 4096));
+  add_limits_to(command);
   command.add_option("--kernel-dir", kernel_dir, "Read the kernels from this folder instead of the built-in ones")->check(CLI::ExistingDirectory);
+}
+
+void SceneOptions::add_limits_to(CLI::App& command) {
+  std::string names;
+  for (const LimitName& limit : limit_names())
+    names += (names.empty() ? "" : ", ") + std::string(limit.name) + " [" + std::to_string(InputLimits{}.*limit.value) + "]";
+  command.add_option("--limit", limits, "NAME=VALUE: how much a scene may ask for; may be given again. K, M and G may follow a number. The names and their values: " + names)
+      ->take_all();
+  command.add_flag("--allow-outside", allow_outside, "Files that a scene names may lie anywhere, not only in its folder, that one's parent and the working folder")->envname("STOKES_ALLOW_OUTSIDE");
+}
+
+InputLimits SceneOptions::input_limits() const {
+  InputLimits result;
+  result.allow_outside = allow_outside;
+  for (const std::string& text : limits) try {
+      set_limit(result, text);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--limit: ") + error.what());
+    }
+  return result;
 }
 
 Film LoadedScene::empty_film(const PixelWindow& w) const {
   const layout::Scene& h = compiled.header;
   const std::uint64_t words = static_cast<std::uint64_t>(w.x1 - w.x0) * static_cast<std::uint64_t>(w.y1 - w.y0) * h.film_stride;
-  require_host_memory(2 * 8 * words, "the film");  // once as the sum, once as a device's part
+  require_memory(limits, 2 * 8 * words, "the film");  // once as the sum, once as a device's part
   return make_film(static_cast<int>(h.camera.width), static_cast<int>(h.camera.height), w.x0, w.y0, w.x1 - w.x0, w.y1 - w.y0, h.film_channels,
                    static_cast<int>(h.spectral_bins), static_cast<double>(h.spectral_begin), static_cast<double>(h.spectral_end),
                    static_cast<double>(h.film_quantum), static_cast<double>(h.depth_quantum));
@@ -94,16 +113,20 @@ SceneOverrides overrides_of(const SceneOptions& options) {
   return overrides;
 }
 
-SceneDescription with_options(SceneDescription scene, const SceneOptions& options) {
-  if (options.samples) scene.samples = *options.samples;
-  if (options.seed) scene.seed = *options.seed;
-  if (!options.size.empty()) std::tie(scene.camera.width, scene.camera.height_pixels) = parse_size(options.size);
-  if (!options.integrator.empty()) {
-    scene.integrator.kind = parse_integrator(options.integrator);
-    scene.integrator.name = options.integrator;
-  }
-  if (!options.mode.empty()) scene.integrator.mode = options.mode == "rgb" ? ColorMode::Rgb : ColorMode::Spectral;
-  if (options.wavelengths_per_path) scene.integrator.wavelengths_per_path = *options.wavelengths_per_path;
+/// What read() reads of a scene file or text within the options' limits, with the options' changes, where compiling it finds room.
+SceneDescription read_within(const SceneOptions& options, const std::function<SceneDescription(const ReadOptions&)>& read) {
+  ReadOptions reading;
+  reading.limits = options.input_limits();
+  // Whatever compiling finds wrong beside the meshes is told before they are made.
+  reading.before_meshes = [&](const SceneDescription& so_far) {
+    SceneDescription draft = so_far;
+    override_settings(draft, options);
+    compile_scene(draft);
+  };
+  SceneDescription scene = read(reading);
+  override_settings(scene, options);
+  const MemoryEstimate need = estimate_memory(scene);
+  require_memory(reading.limits, need.total(), "the scene (" + need.text() + ")");
   return scene;
 }
 
@@ -114,6 +137,7 @@ LoadedScene load_description(const std::string& path, const std::function<SceneD
   const Clock::time_point start = Clock::now();
   LoadedScene loaded;
   loaded.path = path;
+  loaded.limits = options.input_limits();
   loaded.description = read();
   const auto [aovs, bins] = choose(loaded.description);
   if (bins.count > 0 && loaded.description.integrator.mode == ColorMode::Rgb) throw UsageError("--spectral: there are no wavelengths in rgb mode");
@@ -136,12 +160,14 @@ LoadedScene load_description(const std::string& path, const std::function<SceneD
 }  // namespace
 
 SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options) {
-  return with_options(read_scene(path, overrides_of(options)), options);
+  return read_within(options, [&](const ReadOptions& reading) { return read_scene(path, overrides_of(options), reading); });
 }
 
 LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::string& directory, const SceneOptions& options,
                             const AovChoice& aovs, const SpectralBins& bins) {
-  const auto read = [&] { return with_options(read_scene_text(text, name, directory, overrides_of(options)), options); };
+  const auto read = [&] {
+    return read_within(options, [&](const ReadOptions& reading) { return read_scene_text(text, name, directory, overrides_of(options), reading); });
+  };
   return load_description(name, read, options, [&](const SceneDescription&) { return FilmChoice{aovs, bins}; });
 }
 
@@ -151,16 +177,9 @@ LoadedScene load_scene(const std::string& path, const SceneOptions& options, con
 
 LoadedScene load_scene(const std::string& path, const SceneOptions& options, const FilmChooser& choose, bool quiet) {
   LoadedScene loaded = load_description(path, [&] { return read_with_overrides(path, options); }, options, choose);
-  if (!quiet) {
-    for (const std::string& warning : loaded.description.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+  if (!quiet)
     for (const std::string& warning : loaded.compiled.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
-  }
   return loaded;
-}
-
-void require_host_memory(std::uint64_t bytes, const std::string& what) {
-  const std::uint64_t have = available_memory();
-  if (have > 0 && bytes > have) throw MemoryError("out of memory: " + what + " needs " + gibibytes(bytes) + ", " + gibibytes(have) + " are free");
 }
 
 }  // namespace stokes

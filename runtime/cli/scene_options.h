@@ -9,6 +9,7 @@
 #include "cli/backend.h"
 #include "compiled/compiled_scene.h"
 #include "image/film_file.h"
+#include "input/limits.h"
 #include "scene/description.h"
 
 namespace CLI {
@@ -29,7 +30,13 @@ struct SceneOptions {
   std::vector<std::string> settings;
   int threads = 0;
   std::string kernel_dir;
+  std::vector<std::string> limits;  ///< "NAME=VALUE"
+  bool allow_outside = false;
   void add_to(CLI::App& command);
+  /// The options that bound what a scene may ask for, alone.
+  void add_limits_to(CLI::App& command);
+  /// Throws UsageError.
+  InputLimits input_limits() const;
 };
 
 /// What a film shall hold beside R, G, B and alpha.
@@ -46,6 +53,7 @@ struct LoadedScene {
   std::string hash;
   DeviceChoice device;
   double load_seconds = 0;
+  InputLimits limits;
   Film empty_film(const PixelWindow& window) const;
   /// A record without samples, with what every output says about its origin.
   FilmRecord empty_record(const PixelWindow& window) const;
@@ -59,10 +67,7 @@ LoadedScene load_scene(const std::string& path, const SceneOptions& options, con
 /// Likewise, where the film depends on what the scene holds.
 LoadedScene load_scene(const std::string& path, const SceneOptions& options, const std::function<FilmChoice(const SceneDescription&)>& choose, bool quiet);
 
-/// Reads and overrides alone.
+/// Reads and overrides alone. Throws SceneError, UsageError, and OutOfMemory where compiling the scene would take more than there is.
 SceneDescription read_with_overrides(const std::string& path, const SceneOptions& options);
-
-/// Throws MemoryError with need and have when a film of this size would not fit the host's memory.
-void require_host_memory(std::uint64_t bytes, const std::string& what);
 
 }  // namespace stokes

@@ -71,7 +71,7 @@ struct CompiledScene {
   std::vector<float> sensor;          ///< 500 cells x 2 ends x (r, g, b, 0)
 
   std::vector<std::string> surface_names;  ///< parallel to surfaces, for messages
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;       ///< the description's, then those of compiling
   double bvh_seconds = 0;
 };
 

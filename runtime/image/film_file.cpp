@@ -14,6 +14,7 @@
 
 #include "image/error.h"
 #include "image/replace_file.h"
+#include "input/limits.h"
 #include "layout.h"
 
 namespace stokes {
@@ -184,6 +185,7 @@ std::string read_record(const std::string& path) {
   }
   const std::uint64_t length = word_at(trailer, 8);
   if (length < kTrailer || length > size) throw InputError(path + ": is damaged: it is cut short");
+  require_memory({}, 2 * length, path);  // as bytes, and as a film
   std::string record(length, '\0');
   file.seekg(static_cast<std::streamoff>(size - length));
   file.read(record.data(), static_cast<std::streamsize>(length));

@@ -35,7 +35,7 @@ std::string encode_film(const FilmRecord& record);
 /// Writes a record to a file of its own. Throws OutputError.
 void write_film(const std::string& path, const FilmRecord& record);
 
-/// Reads the record of a film file or of a partial EXR. Throws InputError: missing, no film in it, cut short, damaged, other version.
+/// Reads the record of a film file or of a partial EXR. Throws InputError: missing, no film in it, cut short, damaged, other version; OutOfMemory.
 FilmRecord read_film(const std::string& path);
 
 /// True when the file ends with a film's record (it may still be damaged).

@@ -9,11 +9,18 @@
 
 #include "image/error.h"
 #include "image/replace_file.h"
+#include "input/limits.h"
+#include "input/open_image.h"
 
 namespace stokes {
 namespace {
 
 std::size_t pixel_count(const Image& image) { return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height); }
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
 
 /// A file's bytes. In memory, because writers to files do not notice a disk that fills up at the last block.
 std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
@@ -86,9 +93,15 @@ void write_png(const std::string& path, const Image& image, double exposure) {
 }
 
 Image read_image(const std::string& path) {
-  auto in = OIIO::ImageInput::open(path);
-  if (!in) throw InputError(path + ": cannot be read: " + OIIO::geterror());
+  std::unique_ptr<OIIO::ImageInput> in;
+  try {
+    in = open_image(path);
+  } catch (const std::runtime_error& error) {
+    throw InputError(path + ": cannot be read: " + error.what());
+  }
   const OIIO::ImageSpec& spec = in->spec();
+  const std::uint64_t values = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) * static_cast<std::uint64_t>(spec.nchannels);
+  require_memory({}, 2 * sizeof(float) * values, path);  // as they lie in the file, and by channel
   Image image;
   image.width = spec.width;
   image.height = spec.height;
@@ -99,7 +112,7 @@ Image read_image(const std::string& path) {
   const std::size_t channels = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> pixels(pixel_count(image) * channels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    throw InputError(path + ": cannot be read: " + in->geterror());
+    throw InputError(path + ": cannot be read: " + one_line(in->geterror()));
   const bool encoded = spec.format == OIIO::TypeDesc::UINT8;
   for (std::size_t c = 0; c < channels; c++) {
     Image::Channel channel{spec.channelnames[c], std::vector<float>(pixel_count(image))};

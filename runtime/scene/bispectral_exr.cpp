@@ -1,8 +1,6 @@
 // See bispectral_exr.h.
 #include "scene/bispectral_exr.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "input/open_image.h"
+
 namespace stokes {
 namespace {
 
-constexpr std::size_t kMaxValues = std::size_t(1) << 28;
+constexpr std::size_t kMaxValues = std::size_t(1) << 26;
+constexpr std::size_t kMaxSide = 1 << 20;  // of either, so that products stay in range
 
 double parse_nanometres(std::string text) {
   std::replace(text.begin(), text.end(), ',', '.');
@@ -45,8 +46,9 @@ std::size_t index_of(const std::vector<double>& bands, double band) {
 std::vector<double> read_means(OIIO::ImageInput& input) {
   const OIIO::ImageSpec& spec = input.spec();
   const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
-  if (width * static_cast<std::size_t>(spec.height) * channels > kMaxValues) throw std::runtime_error("the image is too large");
-  std::vector<float> pixels(width * static_cast<std::size_t>(spec.height) * channels);
+  const auto height = static_cast<std::size_t>(spec.height);
+  if (width > kMaxSide || height > kMaxSide || channels > kMaxSide || width * height * channels > kMaxValues) throw std::runtime_error("the image is too large");
+  std::vector<float> pixels(width * height * channels);
   if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) throw std::runtime_error(input.geterror());
   std::vector<double> means(channels, 0.0);
   for (std::size_t i = 0; i < pixels.size(); i++) means[i % channels] += pixels[i];
@@ -57,10 +59,8 @@ std::vector<double> read_means(OIIO::ImageInput& input) {
 }  // namespace
 
 ReradiationMatrix read_bispectral_exr(const std::string& path) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) throw std::runtime_error(OIIO::geterror());
+  const auto input = open_image(path);
   const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) throw std::runtime_error("the image has no usable size");
 
   ReradiationMatrix matrix;
   matrix.filename = path;

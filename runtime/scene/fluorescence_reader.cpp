@@ -79,7 +79,7 @@ std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& n
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.starts_with("#") || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = path + ":" + std::to_string(number) + ": ";
-    const auto fields = split_csv(line);
+    const auto fields = split_csv(line, kMaxBands + 2);
     std::vector<double> row;
     // The corner of the table is a label.
     for (std::size_t i = has_header ? 0 : 1; i < fields.size(); i++) {
@@ -88,6 +88,7 @@ std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& n
       row.push_back(*value);
     }
     if (!has_header) {
+      if (row.size() > kMaxBands) node.fail(path + ": more than " + std::to_string(kMaxBands) + " bands");
       matrix->li = row;
       has_header = true;
       continue;
@@ -96,7 +97,7 @@ std::shared_ptr<const ReradiationMatrix> read_reradiation_file(const JsonNode& n
       node.fail(where + std::to_string(row.size()) + " columns, where the first row has " + std::to_string(matrix->li.size() + 1));
     matrix->lo.push_back(row[0]);
     matrix->values.insert(matrix->values.end(), row.begin() + 1, row.end());
-    if (matrix->li.size() > kMaxBands || matrix->lo.size() > kMaxBands)
+    if (matrix->lo.size() > kMaxBands)
       node.fail(path + ": more than " + std::to_string(kMaxBands) + " bands");
   }
   check_bands(node, path, matrix->li, "incoming");

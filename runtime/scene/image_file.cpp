@@ -1,28 +1,36 @@
-// Image files by OpenImageIO, the only place of the scene library that knows it.
+// Pixels of image files, decoded to linear sRGB.
 #include "scene/image_file.h"
 
-#include <OpenImageIO/imageio.h>
-
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "input/open_image.h"
 
 namespace stokes {
 namespace {
 
-constexpr int kMaxSide = 32768;
-
 float decode_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+// The pixels as they come and as they are kept; texels are counted with the scene.
+void require_size(const OIIO::ImageSpec& spec, const std::string& path, const InputLimits& limits) {
+  const auto width = static_cast<std::uint64_t>(spec.width), height = static_cast<std::uint64_t>(spec.height);
+  const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels, and the limit ";
+  if (std::max(width, height) > limits.image_side)
+    throw std::runtime_error("it has " + size + "of a side is " + std::to_string(limits.image_side) + " (--limit image-side)");
+  if (width * height > limits.image_pixels)
+    throw std::runtime_error("it has " + size + "is " + std::to_string(limits.image_pixels) + " (--limit image-pixels)");
+  require_memory(limits, width * height * 6 * sizeof(float), path);
+}
 
 }  // namespace
 
-ImagePixels read_image_file(const std::string& path, bool raw) {
+ImagePixels read_image_file(const std::string& path, bool raw, const InputLimits& limits) {
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(path, &config);
-  if (!input) throw std::runtime_error(OIIO::geterror());
+  const auto input = open_image(path, config);
   const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide || spec.nchannels < 1 || spec.depth > 1)
-    throw std::runtime_error("the image has no usable size");
+  require_size(spec, path, limits);
   const bool integer = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
 
   // Grey (with or without alpha) has one channel of colour, everything else its first three.

@@ -8,6 +8,8 @@
 namespace stokes {
 namespace {
 
+constexpr std::size_t kLongestWord = 64;  // that suggestions are sought for: the distance takes the product of two lengths
+
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -44,9 +46,11 @@ std::string Range::text() const {
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > kLongestWord) return "";
   std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
   std::string nearest;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edit_distance(fold(word), fold(candidate));
     if (distance < best && distance < std::max(word.size(), candidate.size())) {
       best = distance;

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <map>
 
+#include "scene/memory_error.h"
+
 namespace stokes {
 namespace {
 
-constexpr int kMaxDepth = 100;
 constexpr bool kComments = true;  // both the C++ and the C kind, as in editors' JSON with comments
 
 SourcePosition position_at(const std::string& text, std::size_t offset) {
@@ -24,27 +25,63 @@ SourcePosition position_at(const std::string& text, std::size_t offset) {
   return p;
 }
 
-// Accepts everything and remembers the first error with its place.
+// Accepts everything within the limits and remembers the first error with its place. Nothing is kept, so that text may be refused before
+// memory is spent on it.
 struct GrammarCheck : nlohmann::json_sax<Json> {
+  explicit GrammarCheck(const InputLimits& l) : limits(l) {}
+  const InputLimits& limits;
+  struct Level {
+    bool array = false;
+    std::uint64_t entries = 0;  // begun so far
+    std::size_t name = 0;       // bytes of the JSON pointer up to here
+    std::string key = {};       // the last one
+  };
   std::size_t offset = 0;
   std::string token, message;
-  int depth = 0;
-  bool too_deep = false;
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool start_object(std::size_t) override { return enter(); }
-  bool start_array(std::size_t) override { return enter(); }
-  bool end_object() override { return depth--, true; }
-  bool end_array() override { return depth--, true; }
-  bool enter() {
-    too_deep = ++depth > kMaxDepth;
-    return !too_deep;
+  std::vector<Level> levels;
+  std::uint64_t values = 0, pointer_bytes = 0;
+  std::string beyond;  // which limit was passed
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool key(string_t& text) override {
+    levels.back().key = text;
+    if (++levels.back().entries > limits.keys) beyond = "more than " + std::to_string(limits.keys) + " keys in one object (--limit keys)";
+    return beyond.empty();
+  }
+  bool start_object(std::size_t) override { return enter(false); }
+  bool start_array(std::size_t) override { return enter(true); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  bool leave() {
+    levels.pop_back();
+    return true;
+  }
+  bool value() {
+    pointer_bytes += 2 * name();
+    if (!levels.empty() && levels.back().array) levels.back().entries++;
+    if (++values > limits.values) beyond = "more than " + std::to_string(limits.values) + " values (--limit values)";
+    return beyond.empty();
+  }
+  // Bytes of the pointer of the value that comes next; an index counts as 8.
+  std::size_t name() const { return levels.empty() ? 0 : levels.back().name + 1 + (levels.back().array ? 8 : levels.back().key.size()); }
+  // Of the innermost value that has begun.
+  std::string pointer() const {
+    std::string text;
+    for (const Level& level : levels)
+      if (level.entries > 0) text += "/" + (level.array ? std::to_string(level.entries - 1) : escape_token(level.key));
+    return text;
+  }
+  bool enter(bool array) {
+    const std::size_t bytes = name();
+    if (!value()) return false;
+    levels.push_back({array, 0, bytes});
+    if (levels.size() > limits.depth) beyond = "nested deeper than " + std::to_string(limits.depth) + " levels (--limit depth)";
+    return beyond.empty();
   }
   bool parse_error(std::size_t position, const std::string& last_token, const nlohmann::detail::exception& e) override {
     offset = position;
@@ -65,11 +102,21 @@ std::string plain_message(const std::string& message, const std::string& token) 
   return "not JSON: " + text;
 }
 
-void check_grammar(const std::string& text, const std::string& file_name) {
-  GrammarCheck check;
+void check_grammar(const std::string& text, const std::string& file_name, const InputLimits& limits) {
+  GrammarCheck check(limits);
   SourceMap map{file_name, {}};
-  if (Json::sax_parse(text, &check, nlohmann::detail::input_format_t::json, true, kComments)) return;
-  if (check.too_deep) throw SceneError(map, "", "nested deeper than " + std::to_string(kMaxDepth) + " levels");
+  const bool valid = Json::sax_parse(text, &check, nlohmann::detail::input_format_t::json, true, kComments);
+  if (!check.beyond.empty()) throw SceneError(map, check.pointer(), check.beyond);
+  if (valid) {
+    // Values with their places; the file's text is there already.
+    constexpr std::uint64_t kBytesPerValue = 300;
+    try {
+      require_memory(limits, check.values * kBytesPerValue + check.pointer_bytes, "the scene's JSON");
+    } catch (const OutOfMemory& error) {
+      throw SceneMemoryError(map, "", error.what());
+    }
+    return;
+  }
   const std::size_t at = check.offset > 0 ? check.offset - 1 : 0;
   map.places[""] = position_at(text, at);
   // NaN and Infinity are what other tools write for numbers that are none.
@@ -78,10 +125,10 @@ void check_grammar(const std::string& text, const std::string& file_name) {
     for (std::size_t back = 0; back < length && back <= at; back++)
       if (text.compare(at - back, length, literal) == 0) {
         map.places[""] = position_at(text, at - back);
-        throw SceneError(map, "", std::string(literal) + " is not a number in JSON; values must be finite");
+        throw SceneError(map, check.pointer(), std::string(literal) + " is not a number in JSON; values must be finite");
       }
   }
-  throw SceneError(map, "", plain_message(check.message, check.token));
+  throw SceneError(map, check.pointer(), plain_message(check.message, check.token));
 }
 
 // Walks text that is known to be valid JSON.
@@ -228,10 +275,10 @@ std::string canonical_key(std::string key) {
   return key;
 }
 
-JsonSource parse_json(const std::string& text, const std::string& file_name) {
+JsonSource parse_json(const std::string& text, const std::string& file_name, const InputLimits& limits) {
   JsonSource source;
   source.map.file = file_name;
-  check_grammar(text, file_name);
+  check_grammar(text, file_name, limits);
   source.root = Json::parse(text, nullptr, true, kComments);
   PlaceFinder(text, source).run();
   return source;

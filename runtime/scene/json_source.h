@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "input/limits.h"
 #include "scene/error.h"
 
 namespace stokes {
@@ -19,9 +20,9 @@ struct JsonSource {
 };
 
 /// Parses `text`. Throws SceneError for what JSON forbids, and for what JSON libraries let pass: duplicate keys (the spaced and
-/// the underscored spelling of a key count as the same), NaN and infinities, numbers that overflow, text after the end. Comments,
-/// `//` and `/* */`, are accepted.
-JsonSource parse_json(const std::string& text, const std::string& file_name);
+/// the underscored spelling of a key count as the same), NaN and infinities, numbers that overflow, text after the end. Depth, values,
+/// keys and memory stay within the limits. Comments, `//` and `/* */`, are accepted.
+JsonSource parse_json(const std::string& text, const std::string& file_name, const InputLimits& limits = {});
 
 /// Applies `--set POINTER=VALUE`: VALUE is JSON, or failing that a string. Objects that are missing on the way are created;
 /// keys may be spelled with spaces or underscores. Throws SceneError where the pointer leads nowhere.

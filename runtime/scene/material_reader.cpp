@@ -107,7 +107,7 @@ void read_fluorescent(ReadContext& context, const JsonObject& o, MaterialDescrip
 void read_reradiation(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   m.kind = MaterialKind::Reradiation;
   const JsonNode filename = o.require("filename");
-  m.matrix = read_reradiation_file(filename, context.file_path(filename));
+  m.matrix = read_reradiation_file(filename, context.file_path(filename, FileSort::Table));
 }
 
 void set_amount(MaterialDescription& m, const AmountSource& amount) {
@@ -115,10 +115,16 @@ void set_amount(MaterialDescription& m, const AmountSource& amount) {
   m.amount_texture = amount.texture;
 }
 
+void read_parts(ReadContext& context, const JsonObject& o, MaterialDescription& m, const char* a, const char* b) {
+  m.a = read_material(context, o.require(a));
+  m.b = read_material(context, o.require(b));
+  context.add_part(o.require(a), &m, m.a.get(), &InputLimits::materials);
+  context.add_part(o.require(b), &m, m.b.get(), &InputLimits::materials);
+}
+
 void read_blend(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   m.kind = MaterialKind::Blend;
-  m.a = read_material(context, o.require("a"));
-  m.b = read_material(context, o.require("b"));
+  read_parts(context, o, m, "a", "b");
   const auto amount = o.find("amount");
   set_amount(m, amount ? read_amount(context, *amount) : AmountSource{0.5, nullptr});
 }
@@ -135,8 +141,7 @@ double read_plain_ior(const JsonObject& o) {
 // darts' older spelling of a blend whose amount is a fresnel texture.
 void read_fresnel_blend(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   m.kind = MaterialKind::Blend;
-  m.a = read_material(context, o.require("refr"));
-  m.b = read_material(context, o.require("refl"));
+  read_parts(context, o, m, "refr", "refl");
   auto fresnel = std::make_shared<TextureDescription>();
   fresnel->kind = TextureKind::Fresnel;
   fresnel->parameter = read_plain_ior(o);
@@ -146,8 +151,7 @@ void read_fresnel_blend(ReadContext& context, const JsonObject& o, MaterialDescr
 
 void read_painted(ReadContext& context, const JsonObject& o, MaterialDescription& m) {
   m.kind = MaterialKind::Blend;
-  m.a = read_material(context, o.require("base"));
-  m.b = read_material(context, o.require("paint"));
+  read_parts(context, o, m, "base", "paint");
   set_amount(m, read_amount(context, o.require("mask")));
 }
 
@@ -219,6 +223,7 @@ MaterialPtr read_material(ReadContext& context, const JsonNode& node) {
 
 void read_named_materials(ReadContext& context, const JsonNode& list) {
   if (!list.is_array()) list.fail_type("an array of materials");
+  context.require_within(list, list.size(), &InputLimits::materials);
   for (std::size_t i = 0; i < list.size(); i++) {
     const MaterialPtr m = read_inline(context, list[i]);
     if (m->name.empty()) list[i].fail("an entry of \"materials\" needs a \"name\"");

@@ -133,6 +133,7 @@ MediumPtr read_medium(ReadContext& context, const JsonNode& node) {
 
 void read_named_media(ReadContext& context, const JsonNode& list) {
   if (!list.is_array()) list.fail_type("an array of media");
+  context.require_within(list, list.size(), &InputLimits::media);
   for (std::size_t i = 0; i < list.size(); i++) {
     const MediumPtr m = read_inline(context, list[i]);
     if (m->name.empty()) list[i].fail("an entry of \"media\" needs a \"name\"");

@@ -132,11 +132,12 @@ RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_wo
   return shell;
 }
 
-MeshData extract_material(const RawMesh& mesh, int material) {
+namespace {
+
+MeshData extract_faces(const RawMesh& mesh, const std::vector<std::size_t>& faces) {
   bool any_normals = false, any_uvs = false;
-  for (const RawMesh::Face& face : mesh.faces)
-    for (const RawMesh::Corner& c : face.corners) {
-      if (face.material != material) continue;
+  for (const std::size_t f : faces)
+    for (const RawMesh::Corner& c : mesh.faces[f].corners) {
       any_normals |= c.normal >= 0 && length(mesh.normals[c.normal]) > 0;
       any_uvs |= c.uv >= 0;
     }
@@ -144,9 +145,8 @@ MeshData extract_material(const RawMesh& mesh, int material) {
   MeshData data;
   for (const auto& mask : mesh.masks) data.masks.push_back({mask.first, {}});
   std::map<std::tuple<int, int, int>, std::uint32_t> known;
-  for (std::size_t f = 0; f < mesh.faces.size(); f++) {
+  for (const std::size_t f : faces) {
     const RawMesh::Face& face = mesh.faces[f];
-    if (face.material != material) continue;
     std::array<std::uint32_t, 3> triangle;
     for (int i = 0; i < 3; i++) {
       const RawMesh::Corner& c = face.corners[i];
@@ -165,6 +165,16 @@ MeshData extract_material(const RawMesh& mesh, int material) {
     data.triangles.push_back(triangle);
   }
   return data;
+}
+
+}  // namespace
+
+std::vector<MeshData> extract_materials(const RawMesh& mesh) {
+  std::vector<std::vector<std::size_t>> faces(mesh.materials.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); f++) faces[static_cast<std::size_t>(mesh.faces[f].material)].push_back(f);
+  std::vector<MeshData> parts;
+  for (const auto& of_material : faces) parts.push_back(extract_faces(mesh, of_material));
+  return parts;
 }
 
 }  // namespace stokes

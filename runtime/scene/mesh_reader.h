@@ -24,8 +24,9 @@ struct RawMesh {
   std::vector<std::pair<std::string, std::vector<float>>> masks;  // per position
 };
 
-/// Reads an OBJ file; polygons become fans. Every number and index is checked. Throws SceneError at `node`.
-RawMesh read_obj(const JsonNode& node, const std::string& path);
+/// Reads an OBJ file; polygons become fans. Every number and index is checked, and the limits before memory is spent. Libraries of materials
+/// and whatever else the file names are not looked at. Throws SceneError at `node`.
+RawMesh read_obj(const ReadContext& context, const JsonNode& node, const std::string& path);
 
 RawMesh raw_mesh_of(const MeshData& mesh);
 
@@ -40,7 +41,7 @@ std::size_t offset_positions(RawMesh& mesh, double distance, const Affine& to_wo
 /// std::runtime_error when the mesh is not closed or nothing is left. `faulty` counts the places that are not as offset.h promises.
 RawMesh offset_surface(const RawMesh& mesh, double distance, const Affine& to_world, std::size_t* faulty = nullptr);
 
-/// The faces of one material, with vertices of their own.
-MeshData extract_material(const RawMesh& mesh, int material);
+/// The faces of each material, with vertices of their own.
+std::vector<MeshData> extract_materials(const RawMesh& mesh);
 
 }  // namespace stokes

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "scene/material_reader.h"
 #include "scene/medium_reader.h"
@@ -16,14 +15,14 @@
 namespace stokes {
 
 SceneDescription read_scene_text(const std::string& text, const std::string& file_name, const std::string& directory,
-                                 const SceneOverrides& overrides) {
-  JsonSource source = parse_json(text, file_name);
+                                 const SceneOverrides& overrides, const ReadOptions& options) {
+  JsonSource source = parse_json(text, file_name, options.limits);
   for (const auto& [pointer, value] : overrides) apply_override(source, pointer, value);
 
   SceneDescription scene;
   scene.source = source.map;
   scene.directory = directory;
-  ReadContext context{scene};
+  ReadContext context{scene, options.limits};
   const JsonNode root(source);
   if (root.is_object() && root.json().contains("tests") && !root.json().contains("camera"))
     root.child("tests").fail_at_key("a file of tests for darts' own program, not a scene: there is nothing to render");
@@ -43,19 +42,25 @@ SceneDescription read_scene_text(const std::string& text, const std::string& fil
   if (const auto integrator = o.find("integrator")) scene.integrator = read_integrator(*integrator);
   if (const auto background = o.find("background")) scene.background = read_background(context, *background);
   if (const auto film = o.find("film")) read_film(context, *film);
-  if (const auto surfaces = o.find("surfaces")) read_surfaces(context, *surfaces);
+  if (const auto surfaces = o.find("surfaces")) read_surfaces(context, *surfaces, options.before_meshes);
   return scene;
 }
 
-SceneDescription read_scene(const std::string& path, const SceneOverrides& overrides) {
+SceneDescription read_scene(const std::string& path, const SceneOverrides& overrides, const ReadOptions& options) {
   const auto unreadable = [&](const std::string& why) { throw SceneError(SourceMap{path, {}}, "", "the scene cannot be read: " + why); };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable("it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) unreadable(std::strerror(errno));
-  std::stringstream text;
-  text << file.rdbuf();
-  return read_scene_text(text.str(), path, std::filesystem::path(path).parent_path().string(), overrides);
+  // The scene itself may be a pipe, whose size shows only at its end.
+  std::string text;
+  for (char block[1 << 16]; file.read(block, sizeof block), file.gcount() > 0;) {
+    text.append(block, static_cast<std::size_t>(file.gcount()));
+    if (text.size() > options.limits.scene_bytes)
+      unreadable("it has more than " + std::to_string(options.limits.scene_bytes) + " bytes (--limit scene-bytes)");
+  }
+  if (file.bad()) unreadable(std::strerror(errno));
+  return read_scene_text(text, path, std::filesystem::path(path).parent_path().string(), overrides, options);
 }
 
 }  // namespace stokes

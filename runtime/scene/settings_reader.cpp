@@ -12,8 +12,6 @@
 namespace stokes {
 namespace {
 
-constexpr int kMaxSide = 65536;
-
 const std::vector<std::string> kIntegrators = {"path tracer mats",
                                                "path tracer nee",
                                                "path tracer mis",
@@ -76,8 +74,10 @@ CameraDescription read_camera(ReadContext& context, const JsonNode& node) {
   c.aperture = o.number("aperture", c.aperture, kNotNegative);
   if (const auto resolution = o.find("resolution")) {
     resolution->numbers(2);
-    c.width = static_cast<int>((*resolution)[0].integer(1, kMaxSide));
-    c.height_pixels = static_cast<int>((*resolution)[1].integer(1, kMaxSide));
+    const auto side = static_cast<long long>(std::min<std::uint64_t>(context.limits.side, 1u << 30));
+    c.width = static_cast<int>((*resolution)[0].integer(1, side));
+    c.height_pixels = static_cast<int>((*resolution)[1].integer(1, side));
+    context.require_within(*resolution, static_cast<std::uint64_t>(c.width) * static_cast<std::uint64_t>(c.height_pixels), &InputLimits::pixels);
   }
   if (const auto medium = o.find("medium")) c.medium = read_medium(context, *medium);
   return c;
@@ -86,7 +86,10 @@ CameraDescription read_camera(ReadContext& context, const JsonNode& node) {
 void read_sampler(ReadContext& context, const JsonNode& node) {
   const JsonObject o(node, "a sampler", {"type", "samples", "seed"});
   o.string("type", "");
-  if (const auto samples = o.find("samples")) context.scene.samples = static_cast<int>(samples->integer(1, 2147483647));
+  if (const auto samples = o.find("samples")) {
+    context.scene.samples = static_cast<int>(samples->integer(1, 2147483647));
+    context.require_within(*samples, static_cast<std::uint64_t>(context.scene.samples), &InputLimits::samples);
+  }
   if (const auto seed = o.find("seed")) context.scene.seed = static_cast<std::uint32_t>(seed->integer(0, 4294967295LL));
 }
 

@@ -93,7 +93,7 @@ void sink(const ReadContext& context, SurfaceDescription& s, double depth) {
     }
     case SurfaceKind::Mesh:
       try {
-        s.mesh = std::make_shared<MeshData>(extract_material(offset_surface(raw_mesh_of(welded(*s.mesh)), outwards, s.transform), 0));
+        s.mesh = std::make_shared<MeshData>(std::move(extract_materials(offset_surface(raw_mesh_of(welded(*s.mesh)), outwards, s.transform))[0]));
       } catch (const std::runtime_error& error) {
         fail(std::string("skin on this mesh: ") + error.what());
       }
@@ -140,15 +140,22 @@ void read_skin(ReadContext& context, const JsonObject& o, MaterialDescription& m
   m.skin = skin;
 }
 
+void check_skin(const ReadContext& context, const SurfaceDescription& s) {
+  const SkinDescription* skin = find_skin(context, s, *s.material);
+  if (!skin) return;
+  if (s.inside) throw SceneError(context.scene.source, s.pointer + "/inside", "skin has its own layers inside");
+  if (s.kind != SurfaceKind::Mesh) inner_boundary(context, s, *skin);
+}
+
 void expand_skin(ReadContext& context) {
   std::vector<SurfaceDescription> all;
   for (SurfaceDescription& s : context.scene.surfaces) {
+    check_skin(context, s);
     const SkinDescription* skin = find_skin(context, s, *s.material);
     if (!skin) {
       all.push_back(std::move(s));
       continue;
     }
-    if (s.inside) throw SceneError(context.scene.source, s.pointer + "/inside", "skin has its own layers inside");
     SurfaceDescription inner = inner_boundary(context, s, *skin);
     s.inside = skin->epidermis;
     all.push_back(std::move(s));

@@ -16,4 +16,7 @@ void read_skin(ReadContext& context, const JsonObject& o, MaterialDescription& m
 /// has no sides. Throws SceneError for surfaces that have no such parallel: open meshes, ellipsoids, balls thinner than the layer.
 void expand_skin(ReadContext& context);
 
+/// Throws the SceneErrors of expand_skin that a surface shows without its mesh.
+void check_skin(const ReadContext& context, const SurfaceDescription& surface);
+
 }  // namespace stokes

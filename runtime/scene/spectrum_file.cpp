@@ -10,13 +10,16 @@
 
 namespace stokes {
 
-std::vector<std::string> split_csv(const std::string& line) {
+std::vector<std::string> split_csv(const std::string& line, std::size_t most) {
   const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
   std::vector<std::string> fields(1);
   for (const char c : line) {
     const bool space = c == ' ' || c == '\t' || c == '\r';
     if (c == separator || (separator == ' ' && space)) {
-      if (separator != ' ' || !fields.back().empty()) fields.emplace_back();
+      if (separator != ' ' || !fields.back().empty()) {
+        if (fields.size() == most) break;
+        fields.emplace_back();
+      }
     } else if (!space || !fields.back().empty()) {
       fields.back() += c;
     }
@@ -37,7 +40,8 @@ std::optional<double> parse_number(const std::string& text) {
   return value;
 }
 
-std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const JsonNode& node, const std::string& path) {
+std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const JsonNode& node, const std::string& path,
+                                                                             const InputLimits& limits) {
   std::ifstream file(path);
   std::vector<double> wavelengths, values;
   std::string line;
@@ -46,7 +50,7 @@ std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const Jso
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (const auto hash = line.find('#'); hash != std::string::npos) line.resize(hash);
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const auto fields = split_csv(line);
+    const auto fields = split_csv(line, 4);
     const std::string where = path + ":" + std::to_string(number) + ": ";
     std::optional<double> x, y;
     if (fields.size() == 2) {
@@ -58,9 +62,11 @@ std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const Jso
       continue;
     }
     header_allowed = false;
-    if (fields.size() != 2) node.fail(where + "expected two columns, nm and value, not " + std::to_string(fields.size()));
+    if (fields.size() != 2) node.fail(where + "expected two columns, nm and value, not " + (fields.size() < 4 ? std::to_string(fields.size()) : "more"));
     if (!x || !y) node.fail(where + "\"" + (x ? fields[1] : fields[0]) + "\" is not a number");
     if (!std::isfinite(*x) || !std::isfinite(*y)) node.fail(where + "the sample is not finite");
+    if (wavelengths.size() >= limits.curve_samples)
+      node.fail(where + "more than " + std::to_string(limits.curve_samples) + " samples (--limit curve-samples)");
     wavelengths.push_back(*x);
     values.push_back(*y);
   }

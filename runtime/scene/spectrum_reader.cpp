@@ -23,9 +23,10 @@ void check_increasing(const JsonNode& node, const std::vector<double>& wavelengt
       node.fail("wavelengths must increase, and " + show(wavelengths[i]) + " follows " + show(wavelengths[i - 1]));
 }
 
-void read_sampled(ReadContext&, const JsonObject& o, SpectrumRole, Spectrum& s) {
+void read_sampled(ReadContext& context, const JsonObject& o, SpectrumRole, Spectrum& s) {
   s.kind = SpectrumKind::Sampled;
   const JsonNode wavelengths = o.require("wavelengths"), values = o.require("values");
+  context.require_within(wavelengths, wavelengths.size(), &InputLimits::curve_samples);
   s.wavelengths = wavelengths.numbers();
   s.values = values.numbers();
   if (s.wavelengths.empty()) wavelengths.fail("a sampled spectrum needs at least one sample");
@@ -39,7 +40,7 @@ void read_sampled(ReadContext&, const JsonObject& o, SpectrumRole, Spectrum& s) 
 void read_file(ReadContext& context, const JsonObject& o, SpectrumRole, Spectrum& s) {
   s.kind = SpectrumKind::Sampled;
   const JsonNode filename = o.require("filename");
-  std::tie(s.wavelengths, s.values) = read_spectrum_file(filename, context.file_path(filename));
+  std::tie(s.wavelengths, s.values) = read_spectrum_file(filename, context.file_path(filename, FileSort::Table), context.limits);
   if (s.wavelengths.empty()) filename.fail("the file holds no samples");
   check_increasing(filename, s.wavelengths);
 }
@@ -120,7 +121,10 @@ void read_combination(ReadContext& context, const JsonObject& o, SpectrumRole ro
   const JsonNode of = o.require("of");
   if (!of.is_array()) of.fail_type("an array of spectra");
   if (of.size() == 0) of.fail("there must be at least one spectrum");
-  for (std::size_t i = 0; i < of.size(); i++) s.of.push_back(read_spectrum(context, of[i], role, kAnyNumber));
+  for (std::size_t i = 0; i < of.size(); i++) {
+    s.of.push_back(read_spectrum(context, of[i], role, kAnyNumber));
+    context.add_part(of[i], &s, s.of.back().get(), &InputLimits::spectra);
+  }
 }
 
 struct FormEntry {
@@ -290,6 +294,7 @@ SpectrumPtr read_spectrum(ReadContext& context, const JsonNode& node, SpectrumRo
 
 void read_named_spectra(ReadContext& context, const JsonNode& list) {
   if (!list.is_array()) list.fail_type("an array of named spectra");
+  context.require_within(list, list.size(), &InputLimits::spectra);
   for (std::size_t i = 0; i < list.size(); i++) {
     const JsonNode node = list[i];
     if (!node.is_object()) node.fail_type("a spectrum with a name");

@@ -23,6 +23,7 @@ SpectrumPtr make_number_spectrum(double value, const std::string& pointer);
 double plain_value(const Spectrum& s, SpectrumRole role, double lambda);
 
 /// The two columns of a CSV file: nm and value. `#` comments and one header line are allowed. Throws SceneError at `node`.
-std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const JsonNode& node, const std::string& path);
+std::pair<std::vector<double>, std::vector<double>> read_spectrum_file(const JsonNode& node, const std::string& path,
+                                                                       const InputLimits& limits);
 
 }  // namespace stokes

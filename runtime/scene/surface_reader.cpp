@@ -1,14 +1,12 @@
 // The types of surfaces, one function each.
 #include "scene/surface_reader.h"
 
-#include <cmath>
-#include <functional>
-#include <stdexcept>
+#include <utility>
 
-#include "mesh/generate.h"
 #include "scene/material_reader.h"
 #include "scene/medium_reader.h"
 #include "scene/mesh_reader.h"
+#include "scene/mesh_surface.h"
 #include "scene/skin_reader.h"
 #include "scene/spectrum_reader.h"
 #include "scene/transform_reader.h"
@@ -18,30 +16,39 @@ namespace {
 
 const std::vector<std::string> kTypes = {"quad", "sphere", "triangle", "mesh", "group"};
 
+// A surface and its place in the tree above it.
+struct Place {
+  ReadContext& context;
+  std::vector<SurfaceDraft>& drafts;
+  Affine parent;
+};
+
+void add(const Place& place, const SurfaceDescription& s) { place.drafts.push_back({s, nullptr, false}); }
+
 JsonObject surface_object(const JsonNode& node, const std::string& what, std::vector<std::string> keys) {
   for (const char* key : {"type", "name", "transform", "material", "outside", "inside", "flip", "emit"}) keys.push_back(key);
   return {node, what, keys};
 }
 
 // What every surface says of itself; `material` is left to the caller.
-SurfaceDescription read_common(ReadContext& context, const JsonObject& o, const Affine& parent) {
+SurfaceDescription read_common(const Place& place, const JsonObject& o) {
   SurfaceDescription s;
   s.pointer = o.node().pointer();
   s.name = o.string("name", "");
   const auto transform = o.find("transform");
-  s.transform = transform ? parent * read_transform(*transform) : parent;
-  if (const auto outside = o.find("outside")) s.outside = read_medium(context, *outside);
-  if (const auto inside = o.find("inside")) s.inside = read_medium(context, *inside);
-  if (const auto emit = o.find("emit")) s.emit = read_spectrum(context, *emit, SpectrumRole::Emission, kNotNegative);
+  s.transform = transform ? place.parent * read_transform(*transform) : place.parent;
+  if (const auto outside = o.find("outside")) s.outside = read_medium(place.context, *outside);
+  if (const auto inside = o.find("inside")) s.inside = read_medium(place.context, *inside);
+  if (const auto emit = o.find("emit")) s.emit = read_spectrum(place.context, *emit, SpectrumRole::Emission, kNotNegative);
   s.flip = o.boolean("flip", false);
   return s;
 }
 
-void read_quad(ReadContext& context, const JsonNode& node, const Affine& parent) {
+void read_quad(const Place& place, const JsonNode& node) {
   const JsonObject o = surface_object(node, "a quad", {"size"});
-  SurfaceDescription s = read_common(context, o, parent);
+  SurfaceDescription s = read_common(place, o);
   s.kind = SurfaceKind::Quad;
-  s.material = read_material(context, o.require("material"));
+  s.material = read_material(place.context, o.require("material"));
   if (const auto size = o.find("size")) {
     if (size->is_number()) {
       s.width = s.height = size->number(kPositive);
@@ -51,24 +58,24 @@ void read_quad(ReadContext& context, const JsonNode& node, const Affine& parent)
       s.height = (*size)[1].number(kPositive);
     }
   }
-  context.scene.surfaces.push_back(s);
+  add(place, s);
 }
 
-void read_sphere(ReadContext& context, const JsonNode& node, const Affine& parent) {
+void read_sphere(const Place& place, const JsonNode& node) {
   const JsonObject o = surface_object(node, "a sphere", {"radius"});
-  SurfaceDescription s = read_common(context, o, parent);
+  SurfaceDescription s = read_common(place, o);
   s.kind = SurfaceKind::Sphere;
-  s.material = read_material(context, o.require("material"));
+  s.material = read_material(place.context, o.require("material"));
   s.radius = o.number("radius", 1, kPositive);
-  context.scene.surfaces.push_back(s);
+  add(place, s);
 }
 
 // Three corners as v0, v1, v2, or as darts' `positions` with optional `normals` and `uvs`.
-void read_triangle(ReadContext& context, const JsonNode& node, const Affine& parent) {
+void read_triangle(const Place& place, const JsonNode& node) {
   const JsonObject o = surface_object(node, "a triangle", {"v0", "v1", "v2", "positions", "normals", "uvs"});
-  SurfaceDescription s = read_common(context, o, parent);
+  SurfaceDescription s = read_common(place, o);
   s.kind = SurfaceKind::Triangle;
-  s.material = read_material(context, o.require("material"));
+  s.material = read_material(place.context, o.require("material"));
   auto mesh = std::make_shared<MeshData>();
   const auto three = [&](const JsonNode& list) {
     if (!list.is_array() || list.size() != 3) list.fail("expected an array of three");
@@ -96,141 +103,64 @@ void read_triangle(ReadContext& context, const JsonNode& node, const Affine& par
   RawMesh raw = raw_mesh_of(*mesh);
   if (drop_degenerate_faces(raw) > 0) node.fail("the triangle has no area");
   s.mesh = mesh;
-  context.scene.surfaces.push_back(s);
+  add(place, s);
 }
 
-RawMesh generate(const ReadContext& context, const JsonObject& o) {
-  const JsonNode name = o.require("generator");
-  const std::string text = name.string();
-  if (text != "head" && text != "hand")
-    name.fail("no generator is called \"" + text + "\" (there are head and hand)" + did_you_mean(text, {"head", "hand"}));
-  GeneratorOptions options;
-  options.resolution = o.number("resolution", options.resolution, {0.3, 10});
-  options.pose = o.string("pose", "");
-  if (const auto parameters = o.find("parameters")) {
-    if (!parameters->is_object()) parameters->fail_type("an object of numbers");
-    for (const auto& item : parameters->json().items()) options.parameters.emplace_back(item.key(), parameters->child(item.key()).number());
-  }
-  try {
-    MeshData mesh = generate_mesh(text, options);
-    for (Vec3d& p : mesh.positions) p = p * context.units_per_millimetre();
-    return raw_mesh_of(mesh);
-  } catch (const std::invalid_argument& error) {
-    o.node().fail(error.what());
-  }
+void read_mesh(const Place& place, const JsonNode& node) {
+  const JsonObject o = surface_object(node, "a mesh", mesh_keys());
+  place.drafts.push_back(draft_mesh(place.context, o, read_common(place, o)));
 }
 
-RawMesh offset_mesh(ReadContext& context, const JsonObject& o, RawMesh& mesh, double offset, bool by_distance_field,
-                    const Affine& to_world) {
-  const JsonNode node = o.require("offset");
-  if (by_distance_field) {
-    if (mesh.materials.size() > 1) node.fail("a mesh of several materials has no offset by distance field");
-    try {
-      std::size_t faulty = 0;
-      RawMesh shell = offset_surface(mesh, offset, to_world, &faulty);
-      if (faulty > 0)
-        context.warn(node, std::to_string(faulty) + " places of the offset surface's " + std::to_string(shell.faces.size()) +
-                               " triangles are over 5 % off the distance, turned over or crossing");
-      return shell;
-    } catch (const std::runtime_error& error) {
-      node.fail(error.what());
-    }
-  }
-  const std::size_t total = mesh.faces.size();
-  if (const std::size_t flipped = offset_positions(mesh, offset, to_world))
-    context.warn(node, "the offset turned " + std::to_string(flipped) + " of " + std::to_string(total) + " triangles over");
-  if (const std::size_t collapsed = drop_degenerate_faces(mesh))
-    context.warn(node, "the offset left " + std::to_string(collapsed) + " triangles without area");
-  if (mesh.faces.empty()) node.fail("the offset leaves nothing of the mesh");
-  return mesh;
-}
+void read_surface(const Place& place, const JsonNode& node);
 
-RawMesh load_mesh(ReadContext& context, const JsonObject& o, const Affine& to_world) {
-  const auto filename = o.find("filename");
-  if (filename.has_value() == o.has("generator")) o.node().fail("a mesh needs \"filename\" or \"generator\", one of them");
-  const double offset = o.number("offset", 0);
-  const std::string method = canonical_type(o.string("offset method", "normals"));
-  if (method != "normals" && method != "distance field")
-    o.require("offset method").fail("expected \"normals\" or \"distance field\"" + did_you_mean(method, {"normals", "distance field"}));
-  const bool by_distance_field = method == "distance field";
-  if (filename)
-    for (const char* key : {"resolution", "pose", "parameters"})
-      if (const auto value = o.find(key)) value->fail_at_key("this key is for generated meshes");
-
-  RawMesh mesh = filename ? read_obj(*filename, context.file_path(*filename)) : generate(context, o);
-  const std::size_t total = mesh.faces.size();
-  if (const std::size_t dropped = drop_degenerate_faces(mesh))
-    context.warn(o.node(), std::to_string(dropped) + " of " + std::to_string(total) + " triangles have no area and were dropped");
-  if (mesh.faces.empty()) o.node().fail("no triangle of the mesh has an area");
-  if (offset != 0) return offset_mesh(context, o, mesh, offset, by_distance_field, to_world);
-  return mesh;
-}
-
-// The material of faces after `usemtl name`: the prefixed name, or with a warning the surface's own.
-MaterialPtr material_for(ReadContext& context, const JsonObject& o, const std::string& name, const MaterialPtr& own) {
-  if (name.empty()) {
-    if (!own) o.node().fail("a mesh needs \"material\" for its faces without usemtl");
-    return own;
-  }
-  const std::string full = o.string("material prefix", "") + name;
-  if (const MaterialPtr* found = context.materials.find(full)) return *found;
-  const std::string message = "the mesh uses a material \"" + full + "\" that the scene does not define";
-  if (!own) o.node().fail(message);
-  // Files that name materials out of habit are common; only who asks for a prefix means it.
-  if (o.has("material prefix")) context.warn(o.node(), message + "; its own is used");
-  return own;
-}
-
-void read_mesh(ReadContext& context, const JsonNode& node, const Affine& parent) {
-  const JsonObject o = surface_object(
-      node, "a mesh", {"filename", "generator", "resolution", "pose", "parameters", "offset", "offset method", "material prefix"});
-  SurfaceDescription s = read_common(context, o, parent);
-  s.kind = SurfaceKind::Mesh;
-  const auto material = o.find("material");
-  const MaterialPtr own = material ? read_material(context, *material) : nullptr;
-  if (!own && o.has("generator")) o.require("material");
-  const RawMesh raw = load_mesh(context, o, s.transform);
-  for (int i = 0; i < static_cast<int>(raw.materials.size()); i++) {
-    MeshData part = extract_material(raw, i);
-    if (part.triangles.empty()) continue;
-    s.material = material_for(context, o, raw.materials[i], own);
-    s.mesh = std::make_shared<MeshData>(std::move(part));
-    context.scene.surfaces.push_back(s);
-  }
-}
-
-void read_surface(ReadContext& context, const JsonNode& node, const Affine& parent);
-
-void read_children(ReadContext& context, const JsonNode& list, const Affine& parent) {
+void read_children(const Place& place, const JsonNode& list) {
   if (!list.is_array()) list.fail_type("an array of surfaces");
-  for (std::size_t i = 0; i < list.size(); i++) read_surface(context, list[i], parent);
+  for (std::size_t i = 0; i < list.size(); i++) read_surface(place, list[i]);
+  place.context.require_within(list, place.drafts.size(), &InputLimits::surfaces);
 }
 
-void read_group(ReadContext& context, const JsonNode& node, const Affine& parent) {
+void read_group(const Place& place, const JsonNode& node) {
   // The last two steer how darts divides space.
   const JsonObject o(node, "a group", {"type", "name", "transform", "children", "surfaces", "split method", "max leaf size"});
   if (o.has("children") && o.has("surfaces")) o.require("surfaces").fail_at_key("the group already has \"children\"");
   const auto transform = o.find("transform");
   const JsonNode children = o.has("surfaces") ? o.require("surfaces") : o.require("children");
-  read_children(context, children, transform ? parent * read_transform(*transform) : parent);
+  read_children({place.context, place.drafts, transform ? place.parent * read_transform(*transform) : place.parent}, children);
 }
 
-void read_surface(ReadContext& context, const JsonNode& node, const Affine& parent) {
+void read_surface(const Place& place, const JsonNode& node) {
   const std::string type = type_of(node, "a surface");
-  if (type == "quad") return read_quad(context, node, parent);
-  if (type == "sphere") return read_sphere(context, node, parent);
-  if (type == "triangle") return read_triangle(context, node, parent);
-  if (type == "mesh") return read_mesh(context, node, parent);
+  if (type == "quad") return read_quad(place, node);
+  if (type == "sphere") return read_sphere(place, node);
+  if (type == "triangle") return read_triangle(place, node);
+  if (type == "mesh") return read_mesh(place, node);
   // darts' acceleration structures are groups too.
-  if (type == "group" || type == "bbh" || type == "linear") return read_group(context, node, parent);
+  if (type == "group" || type == "bbh" || type == "linear") return read_group(place, node);
   const JsonNode name = node.child("type");
   name.fail("no surface has the type \"" + name.string() + "\"" + did_you_mean(type, kTypes));
 }
 
 }  // namespace
 
-void read_surfaces(ReadContext& context, const JsonNode& list) {
-  read_children(context, list, Affine{});
+void read_surfaces(ReadContext& context, const JsonNode& list, const std::function<void(const SceneDescription&)>& before_meshes) {
+  std::vector<SurfaceDraft> drafts;
+  read_children({context, drafts, Affine{}}, list);
+  // Faults that need no mesh are found before meshes take their time.
+  bool slow = false;
+  for (const SurfaceDraft& draft : drafts) {
+    check_skin(context, draft.surface);
+    context.scene.surfaces.push_back(draft.surface);
+    slow |= draft.slow;
+  }
+  if (slow && before_meshes) before_meshes(context.scene);
+  context.scene.surfaces.clear();
+  for (const SurfaceDraft& draft : drafts) {
+    if (draft.load)
+      draft.load(context);
+    else
+      context.scene.surfaces.push_back(draft.surface);
+    context.require_within(list, context.scene.surfaces.size(), &InputLimits::surfaces);
+  }
   expand_skin(context);
 }
 

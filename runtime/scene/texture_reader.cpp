@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/image_file.h"
+#include "scene/memory_error.h"
 #include "scene/spectrum_reader.h"
 #include "scene/transform_reader.h"
 
@@ -164,11 +165,11 @@ TexturePtr read_texture(ReadContext& context, const JsonNode& node, const Leaf& 
 }  // namespace
 
 std::shared_ptr<const ImagePixels> read_image(ReadContext& context, const JsonNode& filename, bool raw) {
-  const std::string path = context.file_path(filename);
+  const std::string path = context.file_path(filename, FileSort::Image);
   try {
-    return std::make_shared<ImagePixels>(read_image_file(path, raw));
-  } catch (const SceneError&) {
-    throw;
+    return std::make_shared<ImagePixels>(read_image_file(path, raw, context.limits));
+  } catch (const OutOfMemory& error) {
+    throw SceneMemoryError(filename.source(), filename.pointer(), error.what());
   } catch (const std::runtime_error& error) {
     filename.fail(path + " cannot be read as an image: " + error.what());
   }

@@ -41,6 +41,27 @@ expect 0 "$STOKES" check "$FIXTURES/small.json"
 expect 2 render --set /camera/vfov=900
 says err.txt 'vfov'
 
+# Limits, and files of strangers.
+expect 2 render --limit pixels=100 -o x.exr
+says err.txt 'small\.json:[0-9]+:[0-9]+: error: /camera/resolution: .*--limit pixels'
+expect 4 render --limit memory=1K -o x.exr
+expect 64 render --limit pixel=100 -o x.exr
+expect 64 render --limit pixels=many -o x.exr
+mkdir -p far a/b
+printf '400,1\n700,1\n' >far/lamp.csv
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n' >a/flat.obj
+printf '{"camera": {}, "background": {"type": "file", "filename": "../../far/lamp.csv"},
+ "surfaces": [{"type": "mesh", "filename": "../flat.obj", "material": {"type": "lambertian"}}]}' >a/b/scene.json
+cd a || exit 1
+expect 2 "$STOKES" check b/scene.json
+says err.txt '^b/scene\.json:1:[0-9]+: error: /background/filename: .*--allow-outside'
+expect 0 "$STOKES" check --allow-outside b/scene.json
+[ "$(grep -c 'warning: .*1 of 2 triangles' err.txt)" -eq 1 ] || fail "the dropped triangle is not told once: $(cat err.txt)"
+expect 0 env STOKES_ALLOW_OUTSIDE=1 "$STOKES" render b/scene.json --device reference --progress none --size 4x4 --spp 1 -o x.exr
+[ "$(grep -c 'warning: .*1 of 2 triangles' err.txt)" -eq 1 ] || fail "render does not tell the dropped triangle once: $(cat err.txt)"
+cd ..
+expect 0 "$STOKES" check a/b/scene.json
+
 # Devices.
 expect 3 "$STOKES" render "$FIXTURES/small.json" --device 'no such device' -o x.exr
 expect 3 env STOKES_DEVICE=nonesuch "$STOKES" render "$FIXTURES/small.json" -o x.exr

@@ -21,6 +21,16 @@ expect 0 "$STOKES" check pbrt.json
 "$STOKES" render pbrt.json --device reference -q --spp 64 --seed 7 --size 16x12 --aov variance -o b.exr
 expect 0 "$STOKES" compare a.exr b.exr
 
+# Files that the scene leaves where they are: said where rendering will ask for a permission.
+mkdir -p far near/by
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >far/corner.obj
+printf '<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>\n<shape type="obj"><string name="filename" value="corner.obj"/></shape></scene>\n' >far/corner.xml
+cd near/by || exit 1
+expect 0 "$STOKES" import ../../far/corner.xml -o corner.json
+says err.txt 'corner\.json names .*far/corner\.obj, so rendering it needs --allow-outside'
+expect 0 "$STOKES" check --allow-outside corner.json
+cd ../..
+
 # Nothing is dropped in silence: each thing of strange.xml that has no counterpart, by its line.
 expect 0 "$STOKES" import "$SOURCES/strange.xml" -o strange.json
 for line in 2 5 6 8 10 12; do

@@ -34,14 +34,14 @@ TEST(SceneJson, DuplicateKeys) {
 }
 
 TEST(SceneJson, WhatIsNotJson) {
-  EXPECT_EQ(error_of(with("\"background\": NaN")), "scene.json:2:15: error: NaN is not a number in JSON; values must be finite");
-  EXPECT_EQ(error_of(with("\"background\": Infinity")), "scene.json:2:15: error: Infinity is not a number in JSON; values must be finite");
+  EXPECT_EQ(error_of(with("\"background\": NaN")), "scene.json:2:15: error: /background: NaN is not a number in JSON; values must be finite");
+  EXPECT_EQ(error_of(with("\"background\": Infinity")), "scene.json:2:15: error: /background: Infinity is not a number in JSON; values must be finite");
   EXPECT_EQ(error_of(with("\"background\": -Infinity")),
-            "scene.json:2:15: error: -Infinity is not a number in JSON; values must be finite");
+            "scene.json:2:15: error: /background: -Infinity is not a number in JSON; values must be finite");
   EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::StartsWith("scene.json:2:"));
   EXPECT_THAT(error_of(with("\"background\": 1e999")), testing::HasSubstr("1e999 is too large for a number"));
   EXPECT_THAT(error_of("{\"camera\": {}}\n}"), testing::StartsWith("scene.json:2:1: error: not JSON:"));
-  EXPECT_THAT(error_of("{\"camera\": {},}"), testing::StartsWith("scene.json:1:15: error: not JSON:"));
+  EXPECT_THAT(error_of("{\"camera\": {},}"), testing::StartsWith("scene.json:1:15: error: /camera: not JSON:"));
   EXPECT_THAT(error_of("{\"camera\": {} / eye\n}"), testing::StartsWith("scene.json:1:1"));
   EXPECT_THAT(error_of("{\"camera\": {} /* eye\n}"), testing::HasSubstr("not JSON"));
   EXPECT_THAT(error_of("{\"camera\": {}} /* eye * /"), testing::HasSubstr("not JSON"));
