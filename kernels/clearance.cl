@@ -1,4 +1,5 @@
-// How far a point surely is from every surface: random walks in dense media need not look for surfaces inside that ball.
+// How far a point surely is from every surface, or from all but the triangles of two leaves: random walks in dense media need not look for
+// surfaces inside that ball, or only among those.
 // Knows shapes only.
 #ifndef STOKES_CLEARANCE_CL
 #define STOKES_CLEARANCE_CL
@@ -34,37 +35,59 @@ STOKES_FN Wide block_distance2(const __global float* block, float3 p, WideMask* 
   return max_wide(box, above * above / length2);
 }
 
-/// Lower bound of the distance from p to the nearest triangle, at most `radius`.
-STOKES_NOINLINE float triangles_clearance(const __global float* nodes, const __global float* leaves, float3 p, float radius) {
-  float best = radius * radius;
+/// What is near a point.
+typedef struct {
+  Real clear;         // no surface is nearer than this,
+  Real known;         // nor than this, but for the triangles of two leaves of the tree
+  Int first, second;  // the leaves, as their parents name them; -1: none
+} Neighbourhood;
+
+/// Lower bound of the squared distance from p to the triangles of a leaf, at most `limit`.
+STOKES_FN float leaf_distance2(const __global float* leaves, uint leaf, float3 p, float limit) {
+  const __global float* block = leaves + (ulong)((leaf & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
+  for (uint blocks = (leaf & 7u) + 1u; blocks > 0u; blocks--, block += BVH_WIDTH * 10) {
+    WideMask used;
+    const Wide distance2 = block_distance2(block, p, &used);
+    uint closer = wide_bits((distance2 < wide(limit)) & used);
+    if (closer == 0u) continue;
+    float distances[BVH_WIDTH];
+    STORE_WIDE(distance2, distances);
+    for (; closer != 0u; closer &= closer - 1u) limit = fmin(limit, distances[lowest_lane(closer)]);
+  }
+  return limit;
+}
+
+/// The two nearest leaves and, in distance[0..2], lower bounds of the distances to them and to all others, at most `radius` each.
+STOKES_NOINLINE void nearest_leaves(const __global float* nodes, const __global float* leaves, float3 p, float radius, float* distance, uint* leaf) {
+  float first = radius * radius, second = first, others = first;
+  leaf[0] = leaf[1] = STOKES_NONE;
   uint stack[STOKES_STACK];
   int top = 1;
   stack[0] = 0u;
-  while (top > 0) {
+  while (top > 0 && others > 0.0f) {
     const __global float* node = nodes + (ulong)stack[--top] * (BVH_WIDTH * 8);
     const __global Wide* rows = (const __global Wide*)node;
     const __global uint* children = (const __global uint*)(node + 6 * BVH_WIDTH);
     const Wide boxes = box_distance2(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], p);
-    for (uint near = wide_bits(boxes < wide(best)); near != 0u; near &= near - 1u) {
+    for (uint near = wide_bits(boxes < wide(others)); near != 0u; near &= near - 1u) {
       const uint child = children[lowest_lane(near)];
       if (!(child & STOKES_LEAF_BIT)) {
         stack[top++] = child;
         continue;
       }
-      const __global float* block = leaves + (ulong)((child & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
-      for (uint blocks = (child & 7u) + 1u; blocks > 0u; blocks--, block += BVH_WIDTH * 10) {
-        WideMask used;
-        const Wide distance2 = block_distance2(block, p, &used);
-        uint closer = wide_bits((distance2 < wide(best)) & used);
-        if (closer == 0u) continue;
-        float distances[BVH_WIDTH];
-        STORE_WIDE(distance2, distances);
-        for (; closer != 0u; closer &= closer - 1u) best = fmin(best, distances[lowest_lane(closer)]);
+      const float found = leaf_distance2(leaves, child, p, others);
+      if (found >= others) continue;
+      others = fmin(others, fmax(found, second));
+      if (found < first) {
+        second = first, leaf[1] = leaf[0];
+        first = found, leaf[0] = child;
+      } else if (found < second) {
+        second = found, leaf[1] = child;
       }
     }
-    if (best <= 0.0f) return 0.0f;
   }
-  return sqrt(best) * 0.99999f;
+  distance[0] = sqrt(first) * 0.99999f;
+  distance[1] = sqrt(others) * 0.99999f;
 }
 
 STOKES_FN Real quad_clearance(const __global Quad* quad, Real3 p) {
@@ -99,8 +122,9 @@ STOKES_FN Real ellipsoid_clearance(const __global Ellipsoid* ellipsoid, Real3 p)
   return max_real(abs_real(distance - 1.0f) - slack, real(0.0f)) / sqrt(norm2);
 }
 
-/// A lower bound of the distance from p to the nearest surface of any kind, at most max_radius; 0 where m is false.
-STOKES_FN Real clearance(const SceneView* view, Real3 p, Real max_radius, Mask m) {
+/// What is nearer to p than max_radius; nothing is known where m is false.
+STOKES_FN Neighbourhood look_around(const SceneView* view, Real3 p, Real max_radius, Mask m) {
+  Neighbourhood n;
   Real best = m ? max_radius : real(0.0f);
   if (SCENE_HAS_QUADS)
     for (int i = 0; i < (int)view->scene->quad_count; i++) best = min_real(quad_clearance(view->quads + i, p), best);
@@ -109,15 +133,24 @@ STOKES_FN Real clearance(const SceneView* view, Real3 p, Real max_radius, Mask m
   if (SCENE_HAS_ELLIPSOIDS)
     for (int i = 0; i < (int)view->scene->ellipsoid_count; i++)
       best = min_real(ellipsoid_clearance(view->ellipsoids + i, p), best);
+  n.clear = n.known = best;
+  n.first = n.second = integer(-1);
   if (SCENE_HAS_TRIANGLES) {
-    float xs[LANES], ys[LANES], zs[LANES], radii[LANES];
-    store_real(p.x, xs), store_real(p.y, ys), store_real(p.z, zs), store_real(best, radii);
+    float xs[LANES], ys[LANES], zs[LANES], clear[LANES], known[LANES];
+    int first[LANES], second[LANES];
+    store_real(p.x, xs), store_real(p.y, ys), store_real(p.z, zs), store_real(best, known), store_real(best, clear);
+    store_int(n.first, first), store_int(n.second, second);
     for (uint lanes = lane_bits(best > real(0.0f)); lanes != 0u; lanes &= lanes - 1u) {
       const uint j = lowest_lane(lanes);
-      radii[j] = triangles_clearance(view->bvh_nodes, view->bvh_leaves, (float3)(xs[j], ys[j], zs[j]), radii[j]);
+      float distance[2];
+      uint leaf[2];
+      nearest_leaves(view->bvh_nodes, view->bvh_leaves, (float3)(xs[j], ys[j], zs[j]), known[j], distance, leaf);
+      clear[j] = distance[0], known[j] = distance[1];
+      first[j] = (int)leaf[0], second[j] = (int)leaf[1];
     }
-    best = load_real(radii);
+    n.clear = load_real(clear), n.known = load_real(known);
+    n.first = load_int(first), n.second = load_int(second);
   }
-  return best;
+  return n;
 }
 #endif

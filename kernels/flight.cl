@@ -13,7 +13,7 @@
 #ifndef BALL_REACH
 #define BALL_REACH 10.0f
 #define BALL_TOO_SMALL 1.5f
-#define BALL_PAUSE 5
+#define BALL_PAUSE 2
 #endif
 // Only media much denser than the scene is large.
 #define BALL_DENSITY 0.1f
@@ -36,25 +36,32 @@ typedef struct {
   Airlight airlight;
 } Flight;
 
-/// The lanes whose whole flight lies inside their ball without surfaces: these need not be traced.
+/// Finds the lanes whose whole flight lies where no surface is (`*clear`: these need not be traced), and those where only the triangles of two
+/// leaves may be (returned).
 ///
-/// A ball is asked for where a flight leaves the last one, and for a few flights not again where it turned out too small. Skipping changes no
-/// event, because clearance is a lower bound.
-STOKES_FN Mask inside_ball(const SceneView* view, PathState* path, Real length) {
+/// Paths look around where a flight leaves what is known, and for a few flights not again where that turned out too small. What is known are lower
+/// bounds, so no event changes.
+STOKES_FN Mask inside_ball(const SceneView* view, PathState* path, Real length, Mask* clear) {
   const Real3 end = madd3(path->origin, path->direction, length);
   const Real mean_free_path = path->medium.mean_free_path;
   const Mask dense = path->alive & (mean_free_path > real(0.0f)) & (mean_free_path < real(BALL_DENSITY * view->scene->scene_radius));
   const Real3 from = sub3(path->origin, path->ball_center), to = sub3(end, path->ball_center);
-  const Mask inside = dense & (dot3(from, from) < path->ball_radius2) & (dot3(to, to) < path->ball_radius2);
-  const Mask outside = dense & !inside;
+  Real far2 = max_real(dot3(from, from), dot3(to, to)) * 1.0002f;
+  const Mask outside = dense & (far2 >= path->ball.known * path->ball.known);
   const Mask asking = outside & (path->ball_wait <= integer(0));
   path->ball_wait = outside ? path->ball_wait - 1 : path->ball_wait;
-  if (!any(asking)) return inside;
-  const Real radius = clearance(view, path->origin, mean_free_path * BALL_REACH, asking);
-  path->ball_center = select3(asking, path->origin, path->ball_center);
-  path->ball_radius2 = asking ? radius * radius * 0.9999f : path->ball_radius2;
-  path->ball_wait = asking ? (radius < mean_free_path * BALL_TOO_SMALL ? integer(BALL_PAUSE) : integer(0)) : path->ball_wait;
-  return inside | (asking & (length * length < path->ball_radius2));
+  if (any(asking)) {
+    const Neighbourhood n = look_around(view, path->origin, mean_free_path * BALL_REACH, asking);
+    path->ball_center = select3(asking, path->origin, path->ball_center);
+    path->ball.clear = asking ? n.clear : path->ball.clear;
+    path->ball.known = asking ? n.known : path->ball.known;
+    path->ball.first = asking ? n.first : path->ball.first;
+    path->ball.second = asking ? n.second : path->ball.second;
+    path->ball_wait = asking ? (n.known < mean_free_path * BALL_TOO_SMALL ? integer(BALL_PAUSE) : integer(0)) : path->ball_wait;
+    far2 = asking ? length * length * 1.0002f : far2;
+  }
+  *clear = dense & (far2 < path->ball.clear * path->ball.clear);
+  return dense & !*clear & (far2 < path->ball.known * path->ball.known);
 }
 
 /// Whether a way is so short for sigma_t that transmittance hardly changes along it.
@@ -156,7 +163,7 @@ STOKES_FN Real airlight_share(const Airlight* a, Real distance, Real scattering)
 STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* counters) {
   Flight f;
   f.length = real(STOKES_FAR);
-  Mask tracing = path->alive;
+  Mask tracing = path->alive, near = no_lanes();
   Real3 lamp;
   Real lamp_size2;
   f.airlight.chosen = f.airlight.sought = no_lanes();
@@ -164,7 +171,11 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
   if (SCENE_HAS_MEDIA) {
     const Real u = random_next(&path->rng);
     f.length = medium_flight(&path->medium, &path->throughput, u);
-    if (STOKES_EMPTY_BALL) tracing = tracing & !inside_ball(view, path, f.length);
+    if (STOKES_EMPTY_BALL) {
+      Mask clear;
+      near = inside_ball(view, path, f.length, &clear);
+      tracing = tracing & !clear;
+    }
   }
   Real reach = f.length;
   Mask dyed = no_lanes();
@@ -175,7 +186,7 @@ STOKES_FN Flight path_fly(const SceneView* view, PathState* path, Counters* coun
   if (SCENE_HAS_THIN_MEDIA) reach = f.airlight.sought ? real(STOKES_FAR) : reach;
   f.hit.primitive = integer(-1);
   f.hit.t = f.hit.u = f.hit.v = real(0.0f);
-  if (any(tracing)) f.hit = closest_hit(view, path->origin, path->direction, reach, path->exclude, tracing);
+  if (any(tracing)) f.hit = closest_hit_near(view, path->origin, path->direction, reach, path->exclude, tracing, &path->ball, near & (reach <= f.length));
   count_lanes(counters, COUNTER_RAYS, tracing);
   f.at_surface = path->alive & (f.hit.primitive >= integer(0));
   f.glowing = no_lanes();

@@ -16,7 +16,7 @@ STOKES_FN void keep_nearer(Hit* hit, Real t, int i) {
   hit->primitive = nearer ? integer(i) : hit->primitive;
 }
 
-STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int exclude, Mask active, Hit* hit) {
+STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int exclude, Mask active, const Neighbourhood* near, Mask inside, Hit* hit) {
   const BvhSlabs slabs = prepare_slabs(o, d);
   const Mask meeting = active & meet_tree(view->bvh_nodes, &slabs, hit->t);
   if (!any(meeting)) return;
@@ -26,12 +26,14 @@ STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int ex
   int excludes[LANES], primitives[LANES];
   store_real(hit->t, ts), store_real(hit->u, us), store_real(hit->v, vs);
   store_int(exclude, excludes), store_int(hit->primitive, primitives);
+  int starts[LANES], seconds[LANES];
+  store_int(inside ? near->first : integer(0), starts), store_int(inside ? near->second : integer(-1), seconds);
   const int first = first_triangle(view);
   for (uint lanes = lane_bits(meeting); lanes != 0u; lanes &= lanes - 1u) {
     const uint j = lowest_lane(lanes);
     TriangleHit found = {ts[j], 0.0f, 0.0f, STOKES_NONE};
     // A negative difference is no triangle's index, and an unused slot is never hit.
-    traverse_closest(view->bvh_nodes, view->bvh_leaves, &rays, j, (uint)(excludes[j] - first), &found);
+    traverse_closest(view->bvh_nodes, view->bvh_leaves, &rays, j, (uint)(excludes[j] - first), (uint)starts[j], (uint)seconds[j], &found);
     if (found.index == STOKES_NONE) continue;
     ts[j] = found.t;
     us[j] = found.b1;
@@ -46,8 +48,9 @@ STOKES_FN void closest_triangles(const SceneView* view, Real3 o, Real3 d, Int ex
 
 STOKES_FN int is_loose(const SceneView* view, int quad) { return !((view->scene->room_quads[quad / 32] >> (quad % 32)) & 1u); }
 
-/// closest_hit, with `between` as in meet_rooms.
-STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active, int between) {
+/// closest_hit, with `between` as in meet_rooms, and for lanes whose rays stay `inside` what is known there.
+STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active, int between,
+                             const Neighbourhood* near, Mask inside) {
   Hit hit;
   hit.t = tmax;
   hit.primitive = integer(-1);
@@ -66,19 +69,33 @@ STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax,
     for (int i = spheres; i < ellipsoids; i++)
       keep_nearer(&hit, meet_ellipsoid(view->ellipsoids + (i - spheres), o, d, hit.t, exclude == integer(i), active), i);
   hit.primitive = active ? hit.primitive : integer(-1);
-  if (SCENE_HAS_TRIANGLES) closest_triangles(view, o, d, exclude, active, &hit);
+  if (SCENE_HAS_TRIANGLES) closest_triangles(view, o, d, exclude, active, near, inside, &hit);
   return hit;
+}
+
+STOKES_FN Neighbourhood nothing_known(void) {
+  Neighbourhood n;
+  n.clear = n.known = real(0.0f);
+  n.first = n.second = integer(-1);
+  return n;
 }
 
 /// The nearest hit in (0, tmax). d is a unit vector. `exclude` is the primitive that the ray starts on, or -1: it is skipped
 /// if flat, and met only at its far side if curved. Lanes that are not active get primitive -1.
 STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
-  return closest_hit_of(view, o, d, tmax, exclude, active, 0);
+  const Neighbourhood none = nothing_known();
+  return closest_hit_of(view, o, d, tmax, exclude, active, 0, &none, no_lanes());
+}
+
+/// The same, where the rays of the lanes `inside` end within what is known around them.
+STOKES_FN Hit closest_hit_near(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active, const Neighbourhood* near, Mask inside) {
+  return closest_hit_of(view, o, d, tmax, exclude, active, 0, near, inside);
 }
 
 /// The same, for rays most of which meet nothing.
 STOKES_FN Hit first_obstacle(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {
-  return closest_hit_of(view, o, d, tmax, exclude, active, 1);
+  const Neighbourhood none = nothing_known();
+  return closest_hit_of(view, o, d, tmax, exclude, active, 1, &none, no_lanes());
 }
 
 STOKES_FN Mask triangles_occlude(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {

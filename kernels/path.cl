@@ -24,10 +24,10 @@ typedef struct {
   Throughput throughput;
   Real eta_scale;  // undoes the radiance scale of refraction for Russian roulette
   MediumState medium;
-  // No surface is nearer to the centre than the radius.
+  // What surrounds a point that the path came by.
   Real3 ball_center;
-  Real ball_radius2;
-  Int ball_wait;  // flights until the next look for a ball
+  Neighbourhood ball;
+  Int ball_wait;  // flights until the next look around
   // What the film will be told.
   Real camera_u;
   Spectrum radiance, fluorescence;  // per camera wavelength
@@ -65,8 +65,9 @@ STOKES_FN PathState path_none(void) {
   path.origin = path.vertex = path.ball_center = path.albedo = path.normal = path.rgb = zero;
   path.direction = real3(real(0.0f), real(0.0f), real(1.0f));
   path.exclude = integer(-1);
-  path.pdf = path.eta_scale = path.ball_radius2 = path.camera_u = path.depth = path.alpha = real(0.0f);
+  path.pdf = path.eta_scale = path.camera_u = path.depth = path.alpha = real(0.0f);
   path.bounces = path.ball_wait = integer(0);
+  path.ball = nothing_known();
   path.throughput.lambda = spectrum_constant(real(STOKES_LAMBDA_MIN));
   path.throughput.beta = path.throughput.density = path.throughput.mixture = path.throughput.lamp = black;
   path.throughput.mixed = path.throughput.alone = no_lanes();
@@ -146,7 +147,8 @@ STOKES_FN void path_reset(PathState* path, Mask fresh) {
   path->pdf = fresh ? real(-1.0f) : path->pdf;
   path->bounces = fresh ? integer(0) : path->bounces;
   path->eta_scale = fresh ? real(1.0f) : path->eta_scale;
-  path->ball_radius2 = fresh ? real(0.0f) : path->ball_radius2;
+  path->ball.clear = fresh ? real(0.0f) : path->ball.clear;
+  path->ball.known = fresh ? real(0.0f) : path->ball.known;
   path->ball_wait = fresh ? integer(0) : path->ball_wait;
   Throughput* t = &path->throughput;
   FOR_EACH_WAVELENGTH(k) {

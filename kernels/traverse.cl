@@ -131,14 +131,16 @@ STOKES_FN int push_sorted(const __global float* nodes, const __global float* lea
   return top;
 }
 
-/// Lowers *hit (whose t is the ray's end) to the nearest triangle other than `exclude` on lane j's ray.
+/// Lowers *hit (whose t is the ray's end) to the nearest triangle other than `exclude` on lane j's ray, below the nodes or leaves `start`
+/// (0: the root) and `second` (STOKES_NONE: only the first).
 STOKES_NOINLINE void traverse_closest(const __global float* nodes, const __global float* leaves, const BvhRays* rays, uint j,
-                                      uint exclude, TriangleHit* hit) {
+                                      uint exclude, uint start, uint second, TriangleHit* hit) {
   BvhRay ray;
   pick_ray(rays, j, &ray);
   ulong stack[STOKES_STACK];
   int top = 0;
-  uint current = 0u;
+  uint current = start;
+  if (second != STOKES_NONE) stack[top++] = stack_entry(0.0f, second);
   hit->t = hit->t < STOKES_FAR ? hit->t : STOKES_FAR;
   for (;;) {
     // Descend to a leaf along the nearest children.

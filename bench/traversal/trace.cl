@@ -12,7 +12,7 @@ __kernel void trace(const __global float* nodes, const __global float* leaves, u
     const BvhSlabs slabs = prepare_slabs(o, d);
     BvhRays prepared;
     prepare_rays(&slabs, o, d, &prepared);
-    traverse_closest(nodes, leaves, &prepared, 0u, STOKES_NONE, &hit);
+    traverse_closest(nodes, leaves, &prepared, 0u, STOKES_NONE, 0u, STOKES_NONE, &hit);
     distances[i] = hit.index == STOKES_NONE ? -1.0f : hit.t;
     triangles[i] = hit.index;
   }

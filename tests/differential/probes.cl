@@ -206,7 +206,23 @@ __kernel void probe_leave(SCENE_ARGUMENTS, const __global float* rays, const __g
 __kernel void probe_clearance(SCENE_ARGUMENTS, float radius, const __global float* points, __global float* out) {
   SCENE_VIEW;
   const Int i = elements();
-  put(out, i, clearance(view, gather_real3(points, i * 3), real(radius), all_lanes()));
+  put(out, i, look_around(view, gather_real3(points, i * 3), real(radius), all_lanes()).clear);
+}
+
+/// Rays of the length that is known around their origins: what they meet in the whole scene, and among what is said to be near.
+__kernel void probe_neighbourhood(SCENE_ARGUMENTS, float radius, const __global float* points, const __global float* directions,
+                                  __global float* known, __global int* met, __global int* met_near, __global float* t, __global float* t_near) {
+  SCENE_VIEW;
+  const Int i = elements();
+  const Real3 o = gather_real3(points, i * 3), d = gather_real3(directions, i * 3);
+  const Neighbourhood n = look_around(view, o, real(radius), all_lanes());
+  const Hit all = closest_hit(view, o, d, n.known, integer(-1), all_lanes());
+  const Hit near = closest_hit_near(view, o, d, n.known, integer(-1), n.clear < n.known, &n, all_lanes());
+  put(known, i, n.known);
+  put_int(met, i, all.primitive);
+  put_int(met_near, i, near.primitive);
+  put(t, i, all.t);
+  put(t_near, i, near.t);
 }
 
 __kernel void probe_camera(SCENE_ARGUMENTS, const __global float* xs, const __global float* ys, const __global float* us,

@@ -11,8 +11,9 @@
 namespace stokes::testing {
 namespace {
 
-KernelProgram program_for(const CompiledScene& scene, int lanes, std::vector<std::string> without = {"TRIANGLES", "TEXTURES"}) {
+KernelProgram program_for(const CompiledScene& scene, int lanes, std::vector<std::string> without = {"TRIANGLES", "TEXTURES"}, int width = 8) {
   KernelVariant v;
+  v.bvh_width = width;
   v.lanes = lanes;
   v.x86 = lanes != 1;
   v.without = std::move(without);
@@ -372,6 +373,34 @@ TEST(KernelClearance, IsALowerBoundAndAUsefulOne) {
       sum_clear += clear[i], sum_true += exact;
     }
     EXPECT_GT(sum_clear, (kind == 2 ? 0.3 : 0.8) * sum_true) << "kind " << kind;
+  }
+}
+
+TEST(KernelClearance, NoTriangleIsNearButThoseOfTwoLeaves) {
+  for (const int width : {8, 2}) {
+    const CompiledScene scene = mesh_scene(sphere_mesh(40, 80, {0.1f, 0, 0}, 0.8), width);
+    KernelProgram program = program_for(scene, 8, {"TEXTURES", "QUADS"}, width);
+    Numbers u(37);
+    constexpr int kRays = 8192;
+    std::vector<float> points, directions, known(kRays), t(kRays), t_near(kRays);
+    std::vector<int> met(kRays), met_near(kRays);
+    for (int i = 0; i < kRays; i++) {
+      const Vec3d out = normalize(u.cube(1)), d = normalize(u.cube(1)), p = Vec3d{0.1, 0, 0} + out * (0.8 + 0.04 * u.cube(1).x);
+      points.insert(points.end(), {float(p.x), float(p.y), float(p.z)});
+      directions.insert(directions.end(), {float(d.x), float(d.y), float(d.z)});
+    }
+    program.run_with_scene("probe_neighbourhood", kRays / 8, 0.2f, points, directions, Out{known}, Out{met}, Out{met_near}, Out{t}, Out{t_near});
+    int hits = 0;
+    double sum = 0;
+    for (int i = 0; i < kRays; i++) {
+      ASSERT_EQ(met[i], met_near[i]) << "width " << width << " ray " << i;
+      if (met[i] < 0) continue;
+      ASSERT_EQ(t[i], t_near[i]) << "width " << width << " ray " << i;
+      hits++;
+      sum += known[i];
+    }
+    std::printf("width %d: %d of %d rays hit, known %.4f\n", width, hits, kRays, sum / hits);
+    EXPECT_GT(hits, kRays / 10) << "of " << kRays;
   }
 }
 
