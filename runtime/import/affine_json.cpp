@@ -21,8 +21,7 @@ Affine translation_of(Vec3d t) { return from_columns({1, 0, 0}, {0, 1, 0}, {0, 0
 
 Affine scaling_of(Vec3d s) { return from_columns({s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}); }
 
-Affine rotation_of(double degrees, Vec3d axis) {
-  const Vec3d a = normalize(axis);
+Affine rotation_of(double degrees, Vec3d a) {
   const double radians = degrees * std::numbers::pi / 180, c = std::cos(radians), s = std::sin(radians);
   const auto column = [&](Vec3d e) { return e * c + cross(a, e) * s + a * (dot(a, e) * (1 - c)); };
   return from_columns(column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1}), {});

@@ -7,7 +7,7 @@ namespace stokes {
 
 Affine translation_of(Vec3d t);
 Affine scaling_of(Vec3d s);
-/// By degrees about an axis, which need not be normalised.
+/// By degrees about an axis of length 1. (With another length it is no rotation, but what Mitsuba 3 makes of such an axis.)
 Affine rotation_of(double degrees, Vec3d axis);
 /// From a camera's or object's frame to the world: +z towards `target`, +y up, +x = up x z (as both Mitsuba and pbrt have it).
 Affine look_at_of(Vec3d origin, Vec3d target, Vec3d up);

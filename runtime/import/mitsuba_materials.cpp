@@ -86,6 +86,8 @@ ImportJson MitsubaImport::spectrum_of(const Node& given, Role role) {
   }
   if (tag == "float" || tag == "integer" || (tag == "spectrum" && type.empty())) {
     const std::vector<double> v = xml_.numbers(node, value);
+    // A <spectrum> of one number is the same at every wavelength, also as an emission; a <float> is D65-shaped there, as our numbers are.
+    if (v.size() == 1 && tag == "spectrum" && role == Role::Emission) return {{"type", "constant"}, {"value", v[0]}};
     if (v.size() == 1) return v[0];
   }
   note(node, "this spectrum is not understood: " + std::string(role == Role::Emission ? "1" : "0.5") + " is taken");

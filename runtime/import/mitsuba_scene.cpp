@@ -53,7 +53,7 @@ Affine MitsubaImport::transform_of(const Node& node, const char* name) {
     } else if (is(c, "rotate")) {
       const Vec3d axis = xyz(0);
       if (!(length(axis) > 0)) xml_.fail(c, "the axis of rotation is zero");
-      step = rotation_of(component("angle", 0), axis);
+      step = rotation_of(component("angle", 0), axis);  // not normalised, as Mitsuba 3 does not: the same picture counts
     } else if (is(c, "lookat") || is(c, "look_at")) {
       step = look_at_of(vector("origin", {0, 0, 0}), vector("target", {0, 0, 1}), vector("up", {0, 1, 0}));
     } else if (is(c, "matrix")) {

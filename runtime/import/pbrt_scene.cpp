@@ -43,7 +43,7 @@ bool PbrtImport::apply_transform(const PbrtDirective& d) {
     state_.transform = state_.transform * scaling_of({n[0], n[1], n[2]});
   } else if (d.name == "Rotate") {
     need(4);
-    state_.transform = state_.transform * rotation_of(n[0], {n[1], n[2], n[3]});
+    state_.transform = state_.transform * rotation_of(n[0], normalize(Vec3d{n[1], n[2], n[3]}));
   } else if (d.name == "LookAt") {
     need(9);
     state_.transform = state_.transform * look_at_of({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}).inverse();

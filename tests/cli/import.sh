@@ -42,6 +42,22 @@ expect 0 "$STOKES" check strange.json
 expect 2 "$STOKES" import "$SOURCES/strange.xml" -o strict.json --strict
 [ -s strange_meshes/corner_0.obj ] || fail 'the PLY mesh was not written as OBJ'
 
+# As Mitsuba 3 does it: an axis of rotation is not normalised, and a <spectrum> of one number is white of equal energy, also as an emission.
+cat >turn.xml <<'END'
+<scene version="3.0.0">
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" y="1" angle="30"/></transform>
+    <emitter type="area"><spectrum name="radiance" value="2.5"/></emitter>
+  </shape>
+  <emitter type="constant"><float name="radiance" value="1.5"/></emitter>
+</scene>
+END
+expect 0 "$STOKES" import turn.xml -o turn.json --strict
+tr -d ' \n' <turn.json >turn.txt
+says turn.txt '"matrix":\[1.0,0.13397[0-9]*,0.5,'
+says turn.txt '"emit":{"type":"constant","value":2.5}'
+says turn.txt '"background":1.5'
+
 # Refused, in one line at its place.
 expect 5 "$STOKES" import "$SOURCES/fog.xml" -o box.json
 says err.txt 'box.json exists already'
