@@ -96,7 +96,8 @@ def kill_one(render, aim, moment, old):
         return "", "a process outlives the killed render"
 
     found = ["checkpoint"] if os.path.exists("out.exr.checkpoint") else []
-    found += [f"half a {kind}" for kind, stem in (("checkpoint", "out.exr.checkpoint"), ("image", "out.exr")) if temporaries(stem)]
+    halves = (("half a checkpoint", "out.exr.checkpoint"), ("half an image", "out.exr"))
+    found += [half for half, stem in halves if temporaries(stem)]
     content = open("out.exr", "rb").read() if os.path.exists("out.exr") else None
     if content == old:
         left = "absent" if old is None else "old"

@@ -2,9 +2,9 @@
 // names, nothing of Stokes.
 //
 // OPENCL_FAULTS holds rules CALL@N=ACTION, separated by spaces: what happens at the Nth call of that name (N+: at it and all later ones).
-// An ACTION is an OpenCL error code (-5), "hang", "segv", "abort", "kill" or "truncate", which cuts every library in the driver's cache folder
-// in half and goes on with the call. With OPENCL_FAULTS_ONCE=FILE, a rule acts only where FILE does not exist yet, and makes it: one fault for
-// a process and those that replace it. With OPENCL_FAULTS_SHARED_CACHE=1, POCL_CACHE_DIR cannot be changed, so that runs share one.
+// An ACTION is an OpenCL error code (-5), "hang", "segv", "abort", "exit" (with code 0), "kill" or "truncate", which cuts every library in the
+// driver's cache folder in half and goes on with the call. With OPENCL_FAULTS_ONCE=FILE, a rule acts only where FILE does not exist yet, and makes
+// it: one fault for a process and those that replace it. With OPENCL_FAULTS_SHARED_CACHE=1, POCL_CACHE_DIR cannot be changed, so that runs share one.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -66,6 +66,7 @@ cl_int fault(const char* call) {
     for (;;) pause();
   if (action == "segv") *static_cast<volatile int*>(nowhere) = 1;  // raise() would not do: PoCL handles what is not a true fault
   if (action == "abort") abort();
+  if (action == "exit") exit(0);
   if (action == "kill") raise(SIGKILL);
   if (action == "truncate") truncate_libraries();
   return std::atoi(action.c_str());
