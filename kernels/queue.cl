@@ -14,6 +14,7 @@ typedef struct {
   uint next, made;
   uint lane_pixel[LANES];  // for which a lane works; STOKES_NONE: none
   Mask idle;               // lanes for which no path was left
+  FilmSamples ended;       // samples that wait for the film
 } PathQueue;
 
 STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
@@ -29,6 +30,7 @@ STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
   q.sample = launch->sample_begin;
   q.next = q.made = 0u;
   q.idle = no_lanes();
+  film_samples_clear(&q.ended);
   for (int j = 0; j < LANES; j++) q.lane_pixel[j] = STOKES_NONE;
   return q;
 }
@@ -87,14 +89,15 @@ STOKES_FN void film_samples(const PathState* path, FilmSamples* s) {
 /// Whether a lane's path has ended whose sample the film has not got yet.
 STOKES_FN int has_ended_paths(const PathQueue* q, const PathState* path) { return any(!path->alive & !q->idle); }
 
-/// Hands the ended lanes' samples to the film and starts the next paths in them.
+/// Keeps the ended lanes' samples for the film and starts the next paths in them.
 STOKES_FN void refill(const SceneView* view, const __global Launch* launch, PathQueue* q, PathState* path, __global long* film, Counters* counters) {
   FilmSamples samples;
   film_samples(path, &samples);
   uint fresh = 0u, idle = 0u;
   for (uint ended = lane_bits(!path->alive & !q->idle); ended != 0u; ended &= ended - 1u) {
     const uint j = lowest_lane(ended);
-    if (q->lane_pixel[j] != STOKES_NONE) film_add(view, film + (ulong)q->lane_pixel[j] * view->scene->film_stride, &samples, j);
+    if (q->lane_pixel[j] != STOKES_NONE) film_keep(&q->ended, &samples, j, q->lane_pixel[j]);
+    if (q->ended.count == LANES) film_flush(view, film, &q->ended);
     q->lane_pixel[j] = STOKES_NONE;
     if (LANES == 1 || q->next == q->made) queue_make_paths(view, q, launch, counters);
     if (q->made == 0u) {
@@ -107,6 +110,7 @@ STOKES_FN void refill(const SceneView* view, const __global Launch* launch, Path
     fresh |= 1u << j;
   }
   q->idle = q->idle | lane_mask(idle);
+  if (lane_bits(!q->idle) == 0u) film_flush(view, film, &q->ended);
   if (fresh == 0u) return;
   counters->count[COUNTER_PATHS] += popcount(fresh);
   path_reset(path, lane_mask(fresh));
