@@ -28,7 +28,7 @@ def patch(melanosomes):
 fractions = [0.02, 0.05, 0.10, 0.20, 0.35]
 reflectances, colours = [], []
 for fraction in fractions:
-    result = stokes.render(patch(fraction), spp=100, spectral=(380, 780, 20))
+    result = stokes.render(patch(fraction), spp=200, spectral=(380, 780, 20))
     reflectances.append(result.spectra.mean(axis=(0, 1)))
     colours.append(result.image.mean(axis=(0, 1)))
 wavelengths = result.wavelengths

@@ -1,6 +1,7 @@
 // A film as a page shows it. See frame.h.
 #include "view/frame.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -103,18 +104,29 @@ std::string encode_planes(const Planes& planes, int width, int height, int sampl
   return bytes;
 }
 
-Probe probe_film(const Film& film, int x, int y) {
+Probe probe_film(const Film& film, int x, int y, int radius) {
   Probe probe;
-  for (int c = 0; c < 3; c++) {
-    probe.rgb[c] = film_mean(film, x, y, c);
-    probe.error[c] = std::sqrt(film_variance(film, x, y, c));
-  }
-  probe.alpha = film_mean(film, x, y, 3);
-  probe.samples = film_pixel(film, x, y)[10];
   probe.begin = film.spectral_begin;
   probe.end = film.spectral_end;
-  probe.spectrum = film_bins(film, x, y, false);
-  if (film.channels & FILM_FLUORESCENT_BINS) probe.fluorescent = film_bins(film, x, y, true);
+  const int x0 = std::max(0, x - radius), x1 = std::min(film.width, x + radius + 1), y0 = std::max(0, y - radius), y1 = std::min(film.height, y + radius + 1);
+  const double share = 1.0 / ((x1 - x0) * (y1 - y0));
+  const auto add = [&](std::vector<double>& sum, const std::vector<double>& bins) {
+    sum.resize(bins.size());
+    for (std::size_t i = 0; i < bins.size(); i++) sum[i] += share * bins[i];
+  };
+  for (int py = y0; py < y1; py++) {
+    for (int px = x0; px < x1; px++) {
+      for (int c = 0; c < 3; c++) {
+        probe.rgb[c] += share * film_mean(film, px, py, c);
+        probe.error[c] += share * share * film_variance(film, px, py, c);  // pixels are independent
+      }
+      probe.alpha += share * film_mean(film, px, py, 3);
+      add(probe.spectrum, film_bins(film, px, py, false));
+      if (film.channels & FILM_FLUORESCENT_BINS) add(probe.fluorescent, film_bins(film, px, py, true));
+    }
+  }
+  for (double& error : probe.error) error = std::sqrt(error);
+  probe.samples = film_pixel(film, x, y)[10];
   const double width = film.spectral_bins > 0 ? (film.spectral_end - film.spectral_begin) / film.spectral_bins : 0;
   probe.energy = width * std::accumulate(probe.spectrum.begin(), probe.spectrum.end(), 0.0);
   probe.fluorescent_energy = width * std::accumulate(probe.fluorescent.begin(), probe.fluorescent.end(), 0.0);

@@ -35,7 +35,7 @@ struct Probe {
   double energy = 0, fluorescent_energy = 0;  ///< over all bins; the second 0 where not kept
 };
 
-/// What the film holds of pixel (x, y) of its window.
-Probe probe_film(const Film& film, int x, int y);
+/// What the film holds of pixel (x, y) of its window, or the mean over the square of pixels up to `radius` beside it, as far as there are any.
+Probe probe_film(const Film& film, int x, int y, int radius = 0);
 
 }  // namespace stokes

@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 using Planes = std::vector<std::vector<float>>;
 
 constexpr int kCells = 64;
+constexpr double kVisible = 5;  // uncertainties: below, a mean squared error is not told from the noise of the truth
 constexpr const char* kColors[3] = {"R", "G", "B"};
 
 std::string base64(const std::string& bytes) {
@@ -150,14 +151,20 @@ Json describe_case(const ReportCase& c) {
 }  // namespace
 
 double convergence_error(const Film& film, const Film& truth) {
-  double sum = 0;
+  double sum = 0, squares = 0;
   for (int y = 0; y < film.height; y++)
-    for (int x = 0; x < film.width; x++)
+    for (int x = 0; x < film.width; x++) {
+      double pixel = 0;  // its channels share their samples, so the pixel is what is independent
       for (int c = 0; c < 3; c++) {
         const double d = film_mean(film, x, y, c) - film_mean(truth, x, y, c);
-        sum += d * d - film_variance(truth, x, y, c);
+        pixel += (d * d - film_variance(truth, x, y, c)) / 3;
       }
-  return std::sqrt(std::max(0.0, sum / (3.0 * film.width * film.height)));
+      sum += pixel;
+      squares += pixel * pixel;
+    }
+  const double count = static_cast<double>(film.width) * film.height, mean = sum / count;
+  const double uncertainty = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+  return mean > kVisible * uncertainty ? std::sqrt(mean) : 0;
 }
 
 std::string comparison_report(const std::string& title, const std::vector<ReportCase>& cases) {

@@ -29,7 +29,7 @@ struct ReportCase {
 std::string comparison_report(const std::string& title, const std::vector<ReportCase>& cases);
 
 /// The error of `film` against `truth`, over all pixels and R, G, B: the mean squared difference less the variance of the truth's
-/// own means, at least 0; its root.
+/// own means; its root. 0 where that is less than five of its own standard errors, so that the truth's noise hides it.
 double convergence_error(const Film& film, const Film& truth);
 
 }  // namespace stokes

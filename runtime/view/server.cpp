@@ -114,7 +114,7 @@ struct ViewServer::Impl {
       response.set_content(bytes, "application/octet-stream");
     });
     http.Get("/spectrum", [this](const Request& request, Response& response) {
-      const auto probe = session.probe(query_number(request, "x", -1), query_number(request, "y", -1));
+      const auto probe = session.probe(query_number(request, "x", -1), query_number(request, "y", -1), query_number(request, "radius", 0));
       if (!probe) return refuse(response, 404, "there is no such pixel");
       response.set_content(to_json(*probe), "application/json");
     });

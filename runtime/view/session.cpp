@@ -118,11 +118,12 @@ std::string Session::frame(const std::string& layer) const {
   return encode_frame(record_.film, layer, record_.sample_end, state_.frame);
 }
 
-std::optional<Probe> Session::probe(double x, double y) const {
+std::optional<Probe> Session::probe(double x, double y, double radius) const {
   const std::lock_guard lock(mutex_);
   if (state_.frame == 0 || !(x >= 0 && y >= 0 && x < state_.width && y < state_.height)) return std::nullopt;
   const Film& film = record_.film;
-  return probe_film(film, static_cast<int>(x * film.width / state_.width), static_cast<int>(y * film.height / state_.height));
+  return probe_film(film, static_cast<int>(x * film.width / state_.width), static_cast<int>(y * film.height / state_.height),
+                    static_cast<int>(std::clamp(radius, 0.0, 32.0) * film.width / state_.width));
 }
 
 std::optional<FilmRecord> Session::record() const {

@@ -63,8 +63,9 @@ class Session {
   SessionState wait(std::uint64_t version, std::chrono::milliseconds timeout) const;
   /// See encode_frame. Empty while there is no picture. Throws std::invalid_argument.
   std::string frame(const std::string& layer) const;
-  /// The pixel of the present picture that covers (x, y) of the full one; nullopt where there is none.
-  std::optional<Probe> probe(double x, double y) const;
+  /// The pixel of the present picture that covers (x, y) of the full one, or the mean over the pixels up to `radius` of the full one beside it;
+  /// nullopt where there is none.
+  std::optional<Probe> probe(double x, double y, double radius = 0) const;
   /// What has been rendered, for saving; nullopt while there is only a preview.
   std::optional<FilmRecord> record() const;
   /// Every file whose change asks for `reload`.

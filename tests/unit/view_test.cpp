@@ -96,6 +96,15 @@ TEST(Frame, ProbesOnePixel) {
   EXPECT_THAT(to_json(probe), HasSubstr("\"spectrum\":[1.0,2.0,3.0,4.0,5.0]"));
 }
 
+TEST(Frame, ProbesTheMeanOfASquare) {
+  // Of the square's nine pixels the film has two, one of them black.
+  const Probe probe = probe_film(two_pixels(), 1, 0, 1);
+  EXPECT_EQ(probe.spectrum, (std::vector<double>{0.5, 1, 1.5, 2, 2.5}));
+  EXPECT_EQ(probe.fluorescent, (std::vector<double>{0, 0, 0.5, 1, 0}));
+  EXPECT_DOUBLE_EQ(probe.rgb[0], 2000);
+  EXPECT_DOUBLE_EQ(probe.fluorescent_energy, 150);
+}
+
 CameraDescription looking_down_z() {
   CameraDescription camera;
   camera.transform.m = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5};  // at (0, 0, 5), towards -z
@@ -249,6 +258,19 @@ TEST(Report, TheTruthsOwnNoiseIsNoError) {
   const Film truth = film_of({0.5, 1.5});  // the variance of its mean is 1/4
   EXPECT_DOUBLE_EQ(convergence_error(film_of({3}), truth), std::sqrt(4 - 0.25));
   EXPECT_DOUBLE_EQ(convergence_error(film_of({1, 1}), truth), 0);
+
+  // Where the pixels' errors scatter more than they are, nothing is told.
+  Film noisy = make_film(4, 1, 0, 0, 4, 1, 0, 0, 0, 0, std::ldexp(1.0, -20), 1), plain = noisy, sure = noisy;
+  for (int x = 0; x < 4; x++) {
+    for (const double v : {0.5, 1.5}) {
+      const double truth_rgb[3] = {v, v, v}, edge = x == 0 ? 3.0 : 1.0, near[3] = {edge, edge, edge}, far[3] = {3, 3, 3};
+      film_add(noisy, x, 0, truth_rgb, 1, nullptr, nullptr);
+      film_add(plain, x, 0, near, 1, nullptr, nullptr);
+      film_add(sure, x, 0, far, 1, nullptr, nullptr);
+    }
+  }
+  EXPECT_EQ(convergence_error(plain, noisy), 0);
+  EXPECT_DOUBLE_EQ(convergence_error(sure, noisy), std::sqrt(4 - 0.25));
 }
 
 }  // namespace

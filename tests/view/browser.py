@@ -95,9 +95,10 @@ def middle(browser):
 def look(browser, name, url, scene):
     width, height = SIZES[name]
     browser.size(width, height, name == "phone")
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
     browser.call("Page.navigate", url=url)
     check(f"{name}: a picture appears", browser.wait("typeof frame !== 'undefined' && frame && frame.width === state.size[0]", 300))
-    check(f"{name}: nothing is wider than the page", browser.value("document.scrollingElement.scrollWidth <= innerWidth"))
+    check(f"{name}: nothing is wider than the page", browser.value(f"document.scrollingElement.scrollWidth <= {width}"))
     check(f"{name}: the picture is not black", browser.value(
         "(d => { let s = 0; for (const v of d) s += v; return s / d.length; })(picture.getContext('2d').getImageData(0, 0, picture.width, picture.height).data) > 80"))
     x, y = middle(browser)
@@ -154,6 +155,33 @@ def look(browser, name, url, scene):
     check(f"{name}: the correction takes the error away", browser.wait("problem.hidden", 60))
 
 
+def look_at_the_rest(browser):
+    """A narrow phone, and the light colours."""
+    browser.size(360, 640, True)
+    check("360 px: nothing is wider than the page", browser.value("document.scrollingElement.scrollWidth <= 360"))
+    browser.shoot("narrow")
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+    browser.size(*SIZES["desktop"], False)
+    time.sleep(1)
+    check("light: the page is light", browser.value("getComputedStyle(document.body).backgroundColor") == "rgb(241, 242, 244)")
+    x, y = middle(browser)
+    browser.mouse("mouseMoved", x + 40, y + 90, buttons=0)
+    time.sleep(1)
+    browser.shoot("light")
+    browser.call("Emulation.setEmulatedMedia", features=[])
+
+
+def look_from_the_keyboard(browser):
+    browser.value("picture.focus()")
+    for key in ("ArrowLeft", "+"):
+        browser.call("Input.dispatchKeyEvent", type="keyDown", key=key)
+    check("keys orbit and zoom", browser.wait("state.moved", 60))
+    browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=middle(browser)[0], y=middle(browser)[1], deltaX=0, deltaY=200)
+    time.sleep(1)
+    browser.value("home.onclick()")
+    check("and the camera comes back", browser.wait("!state.moved", 60))
+
+
 def main():
     folder = tempfile.mkdtemp()
     shutil.copytree(pathlib.Path(SCENE).parent, folder + "/scenes")
@@ -165,6 +193,9 @@ def main():
     try:
         for name in SIZES:
             look(browser, name, url, scene)
+        look_at_the_rest(browser)
+        look_from_the_keyboard(browser)
+        browser.wait("!save_png.disabled", 120)
         browser.value("save_png.onclick()")
         check("a picture is saved", browser.wait("saved.textContent.includes('.png')", 60) and any(pathlib.Path(folder).glob("*.png")))
         viewer.send_signal(signal.SIGINT)

@@ -72,7 +72,7 @@ function read() {
   if (!spectra) return;
   const cx = Math.floor(x / spectra.edge), cy = Math.floor(y / spectra.edge);
   $("spectra_title").textContent = spectra.edge > 1 ? `Spectrum, mean of the ${spectra.edge} x ${spectra.edge} pixels here` : "Spectrum of the pixel";
-  plotSpectrum($("spectrum"), spectra.begin, spectra.end, [{values: at(spectra.a, cx, cy), colour: "#8ab4f8"}, {values: at(spectra.b, cx, cy), colour: "#f0b35a"}], [["A", "#8ab4f8"], ["B", "#f0b35a"]]);
+  plotSpectrum($("spectrum"), spectra.begin, spectra.end, [{values: at(spectra.a, cx, cy), colour: ink("accent")}, {values: at(spectra.b, cx, cy), colour: ink("warn")}], [["A", ink("accent")], ["B", ink("warn")]]);
 }
 
 // Both axes logarithmic; the dashed line has the slope -1/2 that independent samples give, through the points' middle.
@@ -89,17 +89,17 @@ function plotConvergence() {
   const x0 = logs[0][0], x1 = logs[logs.length - 1][0], ideal = x => my - 0.5 * (x - mx);
   const ys = [...logs.map(p => p[1]), ideal(x0), ideal(x1)], y0 = Math.min(...ys) - 0.1, y1 = Math.max(...ys) + 0.1;
   const left = 52, right = 14, top = 8, bottom = 24, x = v => left + (v - x0) / (x1 - x0) * (width - left - right), y = v => top + (y1 - v) / (y1 - y0) * (height - top - bottom);
-  g.strokeStyle = "#35383c"; g.fillStyle = "#9a9ea5"; g.textAlign = "right";
+  g.strokeStyle = ink("line"); g.fillStyle = ink("dim"); g.textAlign = "right";
   const marks = [];
   for (let decade = Math.floor(y0); decade <= y1; decade++) for (const m of [1, 2, 5]) { const v = decade + Math.log10(m); if (v >= y0 && v <= y1) marks.push([v, +(m * 10 ** decade).toPrecision(3)]); }
   for (const [v, name] of marks) { g.fillText(label(name), left - 6, y(v) + 4); g.beginPath(); g.moveTo(left, y(v)); g.lineTo(width - right, y(v)); g.stroke(); }
   g.textAlign = "center";
   const every = Math.ceil(points.length / 8);
   points.forEach(([n], i) => { if (i % every === 0) g.fillText(n, x(logs[i][0]), height - 6); });
-  g.strokeStyle = "#9a9ea5"; g.setLineDash([5, 4]); g.beginPath(); g.moveTo(x(x0), y(ideal(x0))); g.lineTo(x(x1), y(ideal(x1))); g.stroke(); g.setLineDash([]);
-  g.strokeStyle = g.fillStyle = "#8ab4f8"; g.lineWidth = 1.5; g.beginPath(); logs.forEach(p => g.lineTo(x(p[0]), y(p[1]))); g.stroke();
+  g.strokeStyle = ink("dim"); g.setLineDash([5, 4]); g.beginPath(); g.moveTo(x(x0), y(ideal(x0))); g.lineTo(x(x1), y(ideal(x1))); g.stroke(); g.setLineDash([]);
+  g.strokeStyle = g.fillStyle = ink("accent"); g.lineWidth = 1.5; g.beginPath(); logs.forEach(p => g.lineTo(x(p[0]), y(p[1]))); g.stroke();
   for (const p of logs) { g.beginPath(); g.arc(x(p[0]), y(p[1]), 3, 0, 7); g.fill(); }
-  $("slope").textContent = `Slope ${slope.toFixed(3)}; dashed: -1/2. Root of the mean squared difference from B, less B's own noise.`;
+  $("slope").textContent = `Slope ${slope.toFixed(3)}; dashed: -1/2. Root of the mean squared difference from B, less B's own noise; where that hides it, there is no point.`;
 }
 
 function setExposure(ev) {
@@ -122,7 +122,9 @@ $("split").oninput = paint;
 $("exposure").oninput = e => setExposure(+e.target.value);
 $("tone").onchange = e => { look.tone = e.target.value; setExposure(look.exposure); };
 $("case").onchange = e => open(+e.target.value);
-addEventListener("resize", () => { paint(); read(); plotConvergence(); });
+const redraw = () => { paint(); read(); plotConvergence(); };
+addEventListener("resize", redraw);
+matchMedia("(prefers-color-scheme: light)").addEventListener("change", redraw);
 
 document.title = $("title").textContent = data.title;
 $("case").replaceChildren(...data.cases.map((c, i) => new Option(c.name, i)));

@@ -16,6 +16,9 @@ function niceStep(range) {
 
 function label(v) { return v === 0 ? "0" : Math.abs(v) >= 1e4 || Math.abs(v) < 1e-3 ? v.toExponential(1) : String(+v.toPrecision(3)); }
 
+// A colour of the style sheet, light or dark as the page is.
+function ink(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); }
+
 // `curves`: [{values, colour, fill}], each of equal bins from `begin` to `end` nm, drawn as steps: a bin's mean is all that is known.
 function plotSpectrum(canvas, begin, end, curves, names) {
   const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
@@ -24,19 +27,19 @@ function plotSpectrum(canvas, begin, end, curves, names) {
   g.scale(ratio, ratio);
   g.font = "11px system-ui, sans-serif";
   const left = 44, right = 8, top = 8, bottom = 30, x = nm => left + (nm - 280) / 500 * (width - left - right);
-  const largest = Math.max(1e-30, ...curves.flatMap(c => c.values)), least = Math.min(0, ...curves.flatMap(c => c.values));
+  const most = Math.max(0, ...curves.flatMap(c => c.values)), largest = most || 1, least = Math.min(0, ...curves.flatMap(c => c.values));
   const y = v => top + (largest - v) / (largest - least) * (height - top - bottom);
 
   // The visible band, axes and their numbers.
-  g.fillStyle = "#26282b";
+  g.fillStyle = ink("band");
   g.fillRect(x(380), top, x(740) - x(380), height - top - bottom);
   for (let nm = 380; nm < 740; nm += 2) { g.fillStyle = wavelengthColour(nm); g.fillRect(x(nm), height - bottom + 1, x(nm + 2) - x(nm) + 0.5, 4); }
-  g.fillStyle = "#9a9ea5"; g.strokeStyle = "#35383c"; g.textAlign = "center";
+  g.fillStyle = ink("dim"); g.strokeStyle = ink("line"); g.textAlign = "center";
   for (const nm of [300, 400, 500, 600, 700]) g.fillText(nm, x(nm), height - 8);
   g.textAlign = "right";
   g.fillText("nm", width - right, height - 8);
   const step = niceStep(largest - least);
-  for (let v = Math.ceil(least / step) * step; curves.length && v <= largest * 1.0001; v += step) {
+  for (let v = Math.ceil(least / step) * step; curves.length && v <= most * 1.0001; v += step) {
     g.fillText(label(v), left - 5, y(v) + 4);
     g.beginPath(); g.moveTo(left, y(v)); g.lineTo(width - right, y(v)); g.stroke();
   }
@@ -51,7 +54,7 @@ function plotSpectrum(canvas, begin, end, curves, names) {
   }
   g.textAlign = "left";
   (names || []).forEach(([text, colour], i) => {
-    g.fillStyle = "#1f2123c0"; g.fillRect(left + 4, top + 2 + 14 * i, g.measureText(text).width + 4, 13);
+    g.fillStyle = ink("panel") + "c0"; g.fillRect(left + 4, top + 2 + 14 * i, g.measureText(text).width + 4, 13);
     g.fillStyle = colour; g.fillText(text, left + 6, top + 12 + 14 * i);
   });
 }

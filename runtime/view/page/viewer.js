@@ -107,6 +107,8 @@ function showProblem(lost) {
     const code = document.createElement("pre");
     code.textContent = `${e.line} | ${e.source.replace(/\t/g, " ")}\n${" ".repeat(String(e.line).length)} | ${" ".repeat(Math.max(0, e.column - 1))}^`;
     box.append(code);
+    // The mark stays in sight where the line is longer than the page.
+    code.scrollLeft = code.scrollWidth * (e.column + String(e.line).length + 3) / code.textContent.indexOf("\n") - code.clientWidth / 2;
   }
 }
 
@@ -186,23 +188,23 @@ function placeMark() {
 
 const fetchSpectrum = latest(async () => {
   if (!spot) return;
-  const answer = await fetch(`/spectrum?x=${spot[0] + 0.5}&y=${spot[1] + 0.5}`);
+  const answer = await fetch(`/spectrum?x=${spot[0] + 0.5}&y=${spot[1] + 0.5}&radius=${$("area").value}`);
   if (answer.ok) showSpectrum(await answer.json());
 });
 
 function showSpectrum(p) {
   const curves = [], names = [];
   if (p.spectrum.length) {
-    curves.push({values: p.spectrum, colour: "#e4e5e7", fill: "#8ab4f830"});
+    curves.push({values: p.spectrum, colour: ink("text"), fill: ink("accent") + "30"});
     if (p.fluorescent.length) {
-      curves.push({values: p.fluorescent, colour: "#81c995", fill: "#81c99550"});
-      names.push(["All light", "#e4e5e7"], ["Excited", "#81c995"]);
+      curves.push({values: p.fluorescent, colour: ink("excited"), fill: ink("excited") + "50"});
+      names.push(["All light", ink("text")], ["Excited", ink("excited")]);
     }
   }
   plotSpectrum($("spectrum"), p.begin, p.end, curves, names);
   const text = v => v === 0 ? "0" : Math.abs(v) < 1e-3 || Math.abs(v) >= 1e4 ? v.toExponential(2) : v.toPrecision(3);
   const hold = !matchMedia("(hover: hover)").matches ? "" : pinned ? ", held: click to let go" : ", click to hold";
-  const rows = [["Pixel", `${spot[0]}, ${spot[1]}${hold}`], ["R, G, B", ...p.rgb.map(text)]];
+  const rows = [[+$("area").value ? "Around" : "Pixel", `${spot[0]}, ${spot[1]}${hold}`], ["R, G, B", ...p.rgb.map(text)]];
   if (p.samples > 1) rows.push(["Noise", ...p.error.map(text)]);
   if (p.fluorescent.length && p.energy > 0) rows.push(["Excited", `${(100 * p.fluorescent_energy / p.energy).toFixed(1)} % of the energy`]);
   if (!p.spectrum.length) rows.push(["Spectrum", state.spectral ? "not known yet" : "none: RGB mode, or the picture is too large"]);
@@ -246,6 +248,8 @@ $("copy").onclick = async () => {
   catch (error) { $("saved").textContent = text; }
 };
 
+$("area").onchange = fetchSpectrum;
 addEventListener("resize", () => { fit(); fetchSpectrum(); });
+matchMedia("(prefers-color-scheme: light)").addEventListener("change", fetchSpectrum);
 setExposure(0);
 plotSpectrum($("spectrum"), 280, 780, [], []);
