@@ -216,13 +216,13 @@ def main():
     if unknown := set(wanted) - set(SECTIONS):
         p.error(f"--sections: none is called {', '.join(sorted(unknown))}")
     version = subprocess.run([options.stokes, "--version"], check=True, capture_output=True, text=True).stdout.strip()
-    record = {**machine(), "rows": [], "details": []}
+    record = {**machine(), "rows": [], "details": {}}
     kept = pathlib.Path(options.out + ".json") if options.out else None
-    old = json.loads(kept.read_text()) if kept and kept.exists() else {"rows": [], "details": []}
+    old = json.loads(kept.read_text()) if kept and kept.exists() else {"rows": [], "details": {}}
     record["rows"] = [r for r in old["rows"] if r["section"] not in wanted]
-    record["details"] = old["details"]
+    record["details"] = {k: v for k, v in old["details"].items() if k not in wanted}
     for section in wanted:
-        rows = measure(section, options, record["details"])
+        rows = measure(section, options, record["details"].setdefault(section, []))
         record["rows"] += [{**r, "version": version, "load_average": os.getloadavg()[0]} for r in rows]
         record["rows"].sort(key=lambda r: SECTIONS.index(r["section"]))
         if options.out:
