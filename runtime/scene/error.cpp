@@ -1,18 +1,28 @@
 // How a scene error becomes its one line. Knows positions and pointers, not what a scene may say.
 #include "scene/error.h"
 
+#include <algorithm>
+
 namespace stokes {
 namespace {
 
 constexpr std::size_t kLongest = 1000;  // bytes of a message; what it quotes may be a whole file
 
-// Control characters could break the one-line promise or steer a terminal (a key may contain any of them, also as UTF-8's C1).
+// Bytes of the control character at `i` (a key may contain any): ASCII's, and in UTF-8 C1, the separators of lines and paragraphs, and those
+// that turn the direction of writing. They could break the one-line promise, steer a terminal, or show another text than there is.
+std::size_t control_bytes(const std::string& text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
+  if (byte(0) < 0x20 || byte(0) == 0x7f) return 1;
+  if (byte(0) == 0xc2 && byte(1) >= 0x80 && byte(1) < 0xa0) return 2;
+  const bool separator = byte(1) == 0x80 && byte(2) >= 0xa8 && byte(2) <= 0xae, direction = byte(1) == 0x81 && byte(2) >= 0xa6 && byte(2) <= 0xa9;
+  return byte(0) == 0xe2 && (separator || direction) ? 3 : 0;
+}
+
 std::string one_line(std::string text) {
-  for (std::size_t i = 0; i < text.size(); i++) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool c1 = c == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
-    if (c < 0x20 || c == 0x7f || c1) text[i] = ' ';
-    if (c1) text[i + 1] = ' ';
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t count = control_bytes(text, i);
+    for (std::size_t k = 0; k < count; k++) text[i + k] = ' ';
+    i += std::max<std::size_t>(count, 1);
   }
   return text;
 }

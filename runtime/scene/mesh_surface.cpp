@@ -143,15 +143,17 @@ MaterialPtr material_for(ReadContext& context, const MeshRequest& request, const
   return request.own;
 }
 
-void append_mesh(ReadContext& context, const MeshRequest& request, SurfaceDescription s) {
+std::vector<SurfaceDescription> make_surfaces(ReadContext& context, const MeshRequest& request, SurfaceDescription s) {
+  std::vector<SurfaceDescription> made;
   const RawMesh raw = load_mesh(context, request, s.transform);
   std::vector<MeshData> parts = extract_materials(raw);
   for (std::size_t i = 0; i < parts.size(); i++) {
     if (parts[i].triangles.empty()) continue;
     s.material = material_for(context, request, raw.materials[i]);
     s.mesh = std::make_shared<MeshData>(std::move(parts[i]));
-    context.scene.surfaces.push_back(s);
+    made.push_back(s);
   }
+  return made;
 }
 
 MeshRequest read_request(ReadContext& context, const JsonObject& o) {
@@ -183,21 +185,21 @@ SurfaceDraft draft_mesh(ReadContext& context, const JsonObject& o, SurfaceDescri
   surface.kind = SurfaceKind::Mesh;
   // Without a material of its own the file's names decide; until they are known anything serves.
   surface.material = request.own ? request.own : std::make_shared<MaterialDescription>();
-  SurfaceDraft draft{surface, nullptr, request.offset != 0 && request.by_distance_field};
+  SurfaceDraft draft{surface, nullptr, request.offset != 0 && request.by_distance_field ? LoadingTime::Long : LoadingTime::Short};
   Box box{{-1, -1, -1}, {1, 1, 1}};
   draft.surface.mesh = triangle_within(box, nullptr);
   if (const auto filename = o.find("filename")) {
     request.path = context.file_path(*filename, FileSort::Mesh);
     std::error_code error;
     const auto bytes = std::filesystem::file_size(request.path, error);
-    draft.slow |= error || bytes > kQuickBytes;
+    if (error || bytes > kQuickBytes) draft.time = std::max(draft.time, LoadingTime::Reading);
   } else {
     read_generator(context, o, request, draft.surface, box);
     if (request.offset != 0) check_offset(o.require("offset"), request, surface.transform, box);
     draft.surface.mesh = triangle_within(box, draft.surface.mesh.get());
-    draft.slow = true;
+    draft.time = LoadingTime::Long;
   }
-  draft.load = [request, surface](ReadContext& c) { append_mesh(c, request, surface); };
+  draft.load = [request, surface](ReadContext& c) { return make_surfaces(c, request, surface); };
   return draft;
 }
 

@@ -8,11 +8,14 @@
 
 namespace stokes {
 
+/// How long loading a surface takes: nothing or milliseconds; a large file's reading; seconds of generating and offsetting.
+enum class LoadingTime { Short, Reading, Long };
+
 /// A surface as its JSON says it. Meshes are loaded when everything else has been checked.
 struct SurfaceDraft {
-  SurfaceDescription surface;              ///< of meshes: with a triangle about as large in the mesh's place
-  std::function<void(ReadContext&)> load;  ///< appends the mesh's surfaces to the scene; empty: the surface is complete
-  bool slow = false;                       ///< loading may take seconds
+  SurfaceDescription surface;  ///< of meshes: with a triangle about as large in the mesh's place
+  std::function<std::vector<SurfaceDescription>(ReadContext&)> load;  ///< the mesh's surfaces, one a material; empty: the surface is complete
+  LoadingTime time = LoadingTime::Short;
 };
 
 /// The keys of a mesh beside those of all surfaces.

@@ -1,6 +1,8 @@
 // The types of surfaces, one function each.
 #include "scene/surface_reader.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "scene/material_reader.h"
@@ -23,7 +25,7 @@ struct Place {
   Affine parent;
 };
 
-void add(const Place& place, const SurfaceDescription& s) { place.drafts.push_back({s, nullptr, false}); }
+void add(const Place& place, const SurfaceDescription& s) { place.drafts.push_back({s, nullptr, LoadingTime::Short}); }
 
 JsonObject surface_object(const JsonNode& node, const std::string& what, std::vector<std::string> keys) {
   for (const char* key : {"type", "name", "transform", "material", "outside", "inside", "flip", "emit"}) keys.push_back(key);
@@ -146,21 +148,28 @@ void read_surfaces(ReadContext& context, const JsonNode& list, const std::functi
   std::vector<SurfaceDraft> drafts;
   read_children({context, drafts, Affine{}}, list);
   // Faults that need no mesh are found before meshes take their time.
-  bool slow = false;
+  LoadingTime longest = LoadingTime::Short;
   for (const SurfaceDraft& draft : drafts) {
     check_skin(context, draft.surface);
     context.scene.surfaces.push_back(draft.surface);
-    slow |= draft.slow;
+    longest = std::max(longest, draft.time);
   }
-  if (slow && before_meshes) before_meshes(context.scene);
+  if (longest > LoadingTime::Short && before_meshes) before_meshes(context.scene);
+  // Likewise a broken file before a head is made.
+  std::vector<std::vector<SurfaceDescription>> made(drafts.size());
+  std::size_t count = 0;
+  for (const LoadingTime time : {LoadingTime::Short, LoadingTime::Reading, LoadingTime::Long})
+    for (std::size_t i = 0; i < drafts.size(); i++) {
+      if (drafts[i].time != time) continue;
+      if (drafts[i].load)
+        made[i] = drafts[i].load(context);
+      else
+        made[i] = {drafts[i].surface};
+      count += made[i].size();
+      context.require_within(list, count, &InputLimits::surfaces);
+    }
   context.scene.surfaces.clear();
-  for (const SurfaceDraft& draft : drafts) {
-    if (draft.load)
-      draft.load(context);
-    else
-      context.scene.surfaces.push_back(draft.surface);
-    context.require_within(list, context.scene.surfaces.size(), &InputLimits::surfaces);
-  }
+  for (std::vector<SurfaceDescription>& surfaces : made) std::move(surfaces.begin(), surfaces.end(), std::back_inserter(context.scene.surfaces));
   expand_skin(context);
 }
 

@@ -71,6 +71,9 @@ TEST(SceneJson, EveryErrorIsOneLine) {
   EXPECT_EQ(error_of("{\"a\\nb\": 1}").find('\n'), std::string::npos);
   EXPECT_EQ(error_of("{\"camera\": {\"type\": \"x\\ny\"}}").find('\n'), std::string::npos);
   for (const char* text : {"{", "{\"a\" 1}", "nul", "{\"a\": \"\n\"}"}) EXPECT_EQ(error_of(text).find('\n'), std::string::npos);
+  // Nor what else ends lines, or turns the direction of writing.
+  const std::string error = error_of("{\"camera\": {\"type\": \"a\\u2028b\\u2029c\\u202ed\\u2066e\\u0085f\\u001bg\\u00e9\\u2030h\"}}");
+  EXPECT_THAT(error, testing::HasSubstr("a   b   c   d   e  f g\u00e9\u2030h"));
 }
 
 TEST(SceneJson, MissingFile) {

@@ -198,6 +198,12 @@ TEST(SceneLimits, MeshesComeLast) {
   const std::string head = R"({"type": "mesh", "generator": "head", "resolution": 0.4, "material": {"type": "metal"}})", quad = R"({"type": "quad", "material": {"type": "metal"}})";
   EXPECT_THROW(read_scene_text(with("\"surfaces\": [" + head + ", " + quad + "]"), "scene.json", "", {}, options), SceneError);
   EXPECT_EQ(calls, 1);
+  // A broken file is told before meshes that take longer.
+  const TemporaryFolder folder;
+  for (const char* name : {"a.obj", "b.obj"}) folder.file(name, "v 0 0 0\n");
+  const std::string late = R"({"type": "mesh", "filename": "a.obj", "offset": -0.1, "offset method": "distance field", "material": {"type": "metal"}})",
+                    soon = R"({"type": "mesh", "filename": "b.obj", "material": {"type": "metal"}})";
+  EXPECT_THAT(folder.error_of(with("\"surfaces\": [" + late + ", " + soon + "]")), testing::EndsWith("/surfaces/1/filename: " + folder.path() + "/b.obj holds no faces"));
   EXPECT_THAT(error_of(with("\"surfaces\": [" + head + R"(, {"type": "quad"}])")), testing::EndsWith("/surfaces/1: a quad needs \"material\""));
 }
 
