@@ -7,7 +7,7 @@
 #include "flight.cl"
 
 /// Adds the light that would be scattered towards the path's origin at one place along its flight.
-STOKES_FN void collect_airlight(const SceneView* view, PathState* path, const Airlight* a, Counters* counters) {
+STOKES_APART void collect_airlight(const SceneView* view, PathState* path, const Airlight* a, Counters* counters) {
   const Real distance = equiangular_sample(&a->distances, path_random(path, a->sought));
   const Throughput after = path->throughput;
   const MediumState* m = &path->medium;

@@ -152,7 +152,7 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
 }
 
 /// Adds all waiting samples to their pixels.
-STOKES_FN void film_flush(const SceneView* view, __global long* film, FilmSamples* s) {
+STOKES_APART void film_flush(const SceneView* view, __global long* film, FilmSamples* s) {
   if (s->count == 0u) return;
   float4 rgb[LANES], fluorescent[LANES];
   for (uint j = 0u; j < s->count; j++) fluorescent[j] = (float4)(0.0f);

@@ -23,6 +23,13 @@
 
 #define STOKES_FN static inline __attribute__((always_inline, unused))
 #define STOKES_NOINLINE static __attribute__((noinline, unused))
+// For large functions that are called once for many lanes: compilers take a third less time over the kernel when these stand apart. With one
+// lane, on GPUs, what they are handed by pointer stays in registers only when they are inlined.
+#if LANES > 1
+#define STOKES_APART STOKES_NOINLINE
+#else
+#define STOKES_APART STOKES_FN
+#endif
 #define STOKES_JOIN_(a, b) a##b
 #define STOKES_JOIN(a, b) STOKES_JOIN_(a, b)
 #define STOKES_UNROLL _Pragma("unroll")

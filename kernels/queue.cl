@@ -36,7 +36,7 @@ STOKES_FN PathQueue queue_make(const __global Launch* launch, uint item) {
 }
 
 /// Makes the next paths; none are left when `made` is 0.
-STOKES_FN void queue_make_paths(const SceneView* view, PathQueue* q, const __global Launch* launch, Counters* counters) {
+STOKES_APART void queue_make_paths(const SceneView* view, PathQueue* q, const __global Launch* launch, Counters* counters) {
   uint x[LANES], y[LANES], sample[LANES];
   uint made = 0u;
   for (int j = 0; j < LANES; j++) {
