@@ -1,8 +1,9 @@
 #!/bin/bash
 # Runs the device tests, a parity of small scenes and a comparison of bits on every OpenCL runtime that can be had on Debian 12: PoCL, Intel's CPU runtime,
-# Oclgrind (which also finds races and accesses out of bounds) and Mesa's Rusticl. Intel's is installed from PyPI into a folder.
+# Oclgrind (which also finds races and accesses out of bounds) and Mesa's Rusticl. What is missing is installed: Debian's packages if this is root,
+# Intel's runtime from PyPI into a folder.
 # Usage: tests/portability.sh BUILD_FOLDER [pocl] [intel] [oclgrind] [rusticl]     (default: all; INTEL_DIR=/tmp/stokes-intel)
-# A runtime that is not installed counts as a failure when it was asked for by name, and is skipped otherwise.
+# A runtime that cannot be had counts as a failure when it was asked for by name, and is named as skipped otherwise.
 set -u
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "${1:?usage: $0 BUILD_FOLDER [runtime...]}" && pwd) || exit 64
@@ -14,6 +15,7 @@ vendors=$(mktemp -d)
 trap 'rm -rf "$vendors"' EXIT
 export XDG_CACHE_HOME=$vendors/cache
 failures=0
+skipped=
 
 # run NAME COMMAND...: runs it and remembers a failure.
 run() {
@@ -22,8 +24,15 @@ run() {
 }
 
 missing() {
-  echo "== $1: not installed"
+  echo "== $1: SKIPPED, not installed"
+  skipped="$skipped $1"
   [ "$asked" -eq 0 ] || failures=$((failures + 1))
+}
+
+# has FILE PACKAGE: is the file there, if need be by installing the package?
+has() {
+  [ -e "$1" ] || { [ "$(id -u)" -eq 0 ] && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "$2" > "$vendors/apt.txt" 2>&1; }
+  [ -e "$1" ]
 }
 
 # only FILE_OR_LIBRARY...: makes these the only OpenCL vendors.
@@ -86,7 +95,7 @@ for runtime in $runtimes; do
   unset RUSTICL_ENABLE LD_LIBRARY_PATH
   case $runtime in
     pocl)
-      [ -e /etc/OpenCL/vendors/pocl.icd ] || { missing pocl; continue; }
+      has /etc/OpenCL/vendors/pocl.icd pocl-opencl-icd || { missing pocl; continue; }
       only "$(cat /etc/OpenCL/vendors/pocl.icd)"
       run pocl device_tests
       run pocl parity jensen_box fog_box
@@ -101,13 +110,13 @@ for runtime in $runtimes; do
       run intel pictures intel
       ;;
     oclgrind)
-      command -v oclgrind > /dev/null || { missing oclgrind; continue; }
+      has /usr/bin/oclgrind oclgrind || { missing oclgrind; continue; }
       # Simulated: without the tests that spin for seconds, and no caches, whose binaries are not checked.
       run oclgrind under_oclgrind "$build/tests/unit/test_device" --gtest_brief=1 --gtest_filter="DeviceTest.*-*Pass*:*Cache*:*BuildLog*"
       run oclgrind under_oclgrind "$build/stokes" render "$source_dir/scenes/jensen_box.json" --size 8x8 --spp 2 -q -o "$vendors/oclgrind.exr"
       ;;
     rusticl)
-      [ -e /etc/OpenCL/vendors/rusticl.icd ] || { missing rusticl; continue; }
+      has /etc/OpenCL/vendors/rusticl.icd mesa-opencl-icd || { missing rusticl; continue; }
       only "$(cat /etc/OpenCL/vendors/rusticl.icd)"
       export RUSTICL_ENABLE=llvmpipe
       # The render kernel takes it minutes to build, and its image is wrong (runtime/device/README.md): the machinery is tested.
@@ -118,5 +127,5 @@ for runtime in $runtimes; do
 done
 # The pictures outlive their runtime; comparing them needs none.
 if [ -e "$vendors/fog_box.pocl.exr" ] && [ -e "$vendors/fog_box.intel.exr" ]; then run bits same_bits pocl intel; fi
-[ "$failures" -eq 0 ] && echo "portable: $runtimes"
+echo "$failures failures on: $runtimes${skipped:+; skipped:$skipped}"
 exit $((failures > 0))
