@@ -23,6 +23,9 @@ typedef struct {
   float albedo[3][LANES], normal[3][LANES];
 } FilmSamples;
 
+/// How many samples are to be added; with one lane a constant, which spares GPUs arrays in memory.
+STOKES_FN uint film_waiting(const FilmSamples* s) { return LANES == 1 ? 1u : s->count; }
+
 /// The nearest integer (even at halves); |value| at most FILM_LIMIT. Adding 2^23 leaves a float no fraction to keep.
 STOKES_FN long film_round(float value) {
   const float shift = value < 0.0f ? -8388608.0f : 8388608.0f;
@@ -68,7 +71,7 @@ STOKES_FN float4 film_response(const SceneView* view, int c, float f) {
 /// Film radiance of all waiting samples: x, y, z are R, G, B; w is the energy over all wavelengths.
 STOKES_FN void film_radiances(const SceneView* view, const FilmSamples* s, const float radiance[WAVELENGTHS][LANES], float4* out) {
   if (SCENE_RGB) {
-    for (uint j = 0u; j < s->count; j++) out[j] = (float4)(radiance[0][j], radiance[1 % WAVELENGTHS][j], radiance[2 % WAVELENGTHS][j], 0.0f);
+    for (uint j = 0u; j < film_waiting(s); j++) out[j] = (float4)(radiance[0][j], radiance[1 % WAVELENGTHS][j], radiance[2 % WAVELENGTHS][j], 0.0f);
     return;
   }
   // Wavelengths, their cells in the sensor's table and their weights side by side, the table's rows one after the other.
@@ -82,7 +85,7 @@ STOKES_FN void film_radiances(const SceneView* view, const FilmSamples* s, const
     store_real(f, within[k]);
     store_real(load_real(radiance[k]) * (inverse_pdf.v[k] * real(1.0f / (float)WAVELENGTHS)), weight[k]);
   }
-  for (uint j = 0u; j < s->count; j++) {
+  for (uint j = 0u; j < film_waiting(s); j++) {
     float4 sum = (float4)(0.0f);
     FOR_EACH_WAVELENGTH(k) {
       float4 response = film_response(view, cell[k][j], within[k][j]);
@@ -153,15 +156,15 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
 
 /// Adds all waiting samples to their pixels.
 STOKES_APART void film_flush(const SceneView* view, __global long* film, FilmSamples* s) {
-  if (s->count == 0u) return;
+  if (LANES > 1 && s->count == 0u) return;
   float4 rgb[LANES], fluorescent[LANES];
-  for (uint j = 0u; j < s->count; j++) fluorescent[j] = (float4)(0.0f);
+  for (uint j = 0u; j < film_waiting(s); j++) fluorescent[j] = (float4)(0.0f);
   if (FILM_TAKES_RGB)
-    for (uint j = 0u; j < s->count; j++) rgb[j] = (float4)(s->rgb[0][j], s->rgb[1][j], s->rgb[2][j], 0.0f);
+    for (uint j = 0u; j < film_waiting(s); j++) rgb[j] = (float4)(s->rgb[0][j], s->rgb[1][j], s->rgb[2][j], 0.0f);
   else
     film_radiances(view, s, s->radiance, rgb);
   if (FILM_CHANNELS & FILM_FLUORESCENCE) film_radiances(view, s, s->fluorescence, fluorescent);
-  for (uint j = 0u; j < s->count; j++) film_add(view, film + (ulong)s->pixel[j] * view->scene->film_stride, s, j, rgb[j], fluorescent[j]);
+  for (uint j = 0u; j < film_waiting(s); j++) film_add(view, film + (ulong)s->pixel[j] * view->scene->film_stride, s, j, rgb[j], fluorescent[j]);
   s->count = 0u;
 }
 
@@ -176,7 +179,8 @@ STOKES_FN void film_samples_clear(FilmSamples* s) {
 
 /// Lane j of `from` waits for the film, which has room for it.
 STOKES_FN void film_keep(FilmSamples* s, const FilmSamples* from, uint j, uint pixel) {
-  const uint i = s->count++;
+  const uint i = LANES == 1 ? 0u : s->count;
+  s->count++;
   s->pixel[i] = pixel;
   s->u[i] = from->u[j];
   s->alpha[i] = from->alpha[j];

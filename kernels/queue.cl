@@ -96,8 +96,10 @@ STOKES_FN void refill(const SceneView* view, const __global Launch* launch, Path
   uint fresh = 0u, idle = 0u;
   for (uint ended = lane_bits(!path->alive & !q->idle); ended != 0u; ended &= ended - 1u) {
     const uint j = lowest_lane(ended);
-    if (q->lane_pixel[j] != STOKES_NONE) film_keep(&q->ended, &samples, j, q->lane_pixel[j]);
-    if (q->ended.count == LANES) film_flush(view, film, &q->ended);
+    if (q->lane_pixel[j] != STOKES_NONE) {
+      film_keep(&q->ended, &samples, j, q->lane_pixel[j]);
+      if (LANES == 1 || q->ended.count == LANES) film_flush(view, film, &q->ended);
+    }
     q->lane_pixel[j] = STOKES_NONE;
     if (LANES == 1 || q->next == q->made) queue_make_paths(view, q, launch, counters);
     if (q->made == 0u) {
@@ -110,7 +112,7 @@ STOKES_FN void refill(const SceneView* view, const __global Launch* launch, Path
     fresh |= 1u << j;
   }
   q->idle = q->idle | lane_mask(idle);
-  if (lane_bits(!q->idle) == 0u) film_flush(view, film, &q->ended);
+  if (LANES > 1 && lane_bits(!q->idle) == 0u) film_flush(view, film, &q->ended);
   if (fresh == 0u) return;
   counters->count[COUNTER_PATHS] += popcount(fresh);
   path_reset(path, lane_mask(fresh));

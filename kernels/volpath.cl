@@ -75,8 +75,10 @@ STOKES_FN void trace_paths(const SceneView* view, const __global Launch* launch,
       refill(view, launch, queue, &path, film, counters);
       if (!any(path.alive)) return;
     }
-    count_lanes(counters, COUNTER_FLIGHTS, path.alive);
-    counters->count[COUNTER_LANE_STEPS] += LANES;
+    if (LANES > 1) {
+      count_lanes(counters, COUNTER_FLIGHTS, path.alive);
+      counters->count[COUNTER_LANE_STEPS] += LANES;
+    }
 
     // Fly until the medium scatters the path, a surface stops it, or it leaves the scene.
     const Real3 origin = path.origin;

@@ -37,7 +37,7 @@ void limit_cpu_threads(int threads);
 
 struct RenderCounters {
   std::uint64_t rays = 0, shadow_rays = 0, scatterings = 0, paths = 0, invalid = 0;
-  std::uint64_t flights = 0;     ///< from one vertex to the next
+  std::uint64_t flights = 0;     ///< from one vertex to the next; not counted with one lane
   std::uint64_t lane_steps = 0;  ///< flights, and those that lanes without a path waited for; depends on lanes and launches
 };
 
