@@ -363,7 +363,7 @@ def main():
                     a.keep.mkdir(parents=True, exist_ok=True)
                     (a.keep / f"{i}_{path.stem}.json").write_bytes(data)
             first += BATCH
-            if first % (40 * BATCH) == 0:
+            if first % (10 * BATCH) == 0:
                 print(f"{first} mutations, {outcomes['refused']} refused", file=sys.stderr, flush=True)
     print(f"{first} mutations of {len(paths)} scenes: {outcomes['valid']} stayed valid (exit 0), {outcomes['refused']} were refused "
           f"(exit 2, one line; {outcomes['rootless']} of them about the whole file, whose pointer is empty), {len(failures)} failed")
