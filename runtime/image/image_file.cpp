@@ -17,11 +17,6 @@ namespace {
 
 std::size_t pixel_count(const Image& image) { return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height); }
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 /// A file's bytes. In memory, because writers to files do not notice a disk that fills up at the last block.
 std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
   auto out = OIIO::ImageOutput::create(format);
@@ -111,8 +106,11 @@ Image read_image(const std::string& path) {
   image.full_height = spec.full_height;
   const std::size_t channels = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> pixels(pixel_count(image) * channels);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    throw InputError(path + ": cannot be read: " + one_line(in->geterror()));
+  try {
+    read_pixels(*in, spec.nchannels, pixels.data());
+  } catch (const std::runtime_error& error) {
+    throw InputError(path + ": cannot be read: " + error.what());
+  }
   const bool encoded = spec.format == OIIO::TypeDesc::UINT8;
   for (std::size_t c = 0; c < channels; c++) {
     Image::Channel channel{spec.channelnames[c], std::vector<float>(pixel_count(image))};

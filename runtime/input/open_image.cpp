@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "input/quiet_stderr.h"
+
 namespace stokes {
 namespace {
 
@@ -72,10 +74,16 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const OIIO
   auto input = OIIO::ImageInput::create(format);
   if (!input) throw std::runtime_error("OpenImageIO has no reader for " + format + ": " + one_line(OIIO::geterror()));
   OIIO::ImageSpec spec;
+  const QuietStderr quiet;
   if (!input->open(path, spec, config)) throw std::runtime_error(one_line(input->geterror()));
   if (spec.deep || spec.depth > 1) throw std::runtime_error("deep images and volumes cannot be used");
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("the image has no usable size");
   return input;
+}
+
+void read_pixels(OIIO::ImageInput& input, int channels, float* pixels) {
+  const QuietStderr quiet;
+  if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, pixels)) throw std::runtime_error(one_line(input.geterror()));
 }
 
 }  // namespace stokes

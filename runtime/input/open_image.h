@@ -15,4 +15,7 @@ std::string image_format(const std::string& path);
 /// std::runtime_error with the reason.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const OIIO::ImageSpec& config = {});
 
+/// Reads the first `channels` channels of all pixels, row by row, as floats. Throws std::runtime_error with the reason, in one line.
+void read_pixels(OIIO::ImageInput& input, int channels, float* pixels);
+
 }  // namespace stokes

@@ -49,7 +49,7 @@ std::vector<double> read_means(OIIO::ImageInput& input) {
   const auto height = static_cast<std::size_t>(spec.height);
   if (width > kMaxSide || height > kMaxSide || channels > kMaxSide || width * height * channels > kMaxValues) throw std::runtime_error("the image is too large");
   std::vector<float> pixels(width * height * channels);
-  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) throw std::runtime_error(input.geterror());
+  read_pixels(input, spec.nchannels, pixels.data());
   std::vector<double> means(channels, 0.0);
   for (std::size_t i = 0; i < pixels.size(); i++) means[i % channels] += pixels[i];
   for (double& m : means) m /= static_cast<double>(pixels.size() / channels);

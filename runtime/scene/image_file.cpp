@@ -36,7 +36,7 @@ ImagePixels read_image_file(const std::string& path, bool raw, const InputLimits
   // Grey (with or without alpha) has one channel of colour, everything else its first three.
   const int channels = spec.nchannels < 3 ? 1 : 3;
   std::vector<float> pixels(static_cast<std::size_t>(spec.width) * spec.height * channels);
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, pixels.data())) throw std::runtime_error(input->geterror());
+  read_pixels(*input, channels, pixels.data());
 
   ImagePixels image{spec.width, spec.height, {}};
   image.rgb.resize(static_cast<std::size_t>(spec.width) * spec.height * 3);

@@ -62,6 +62,15 @@ expect 0 env STOKES_ALLOW_OUTSIDE=1 "$STOKES" render b/scene.json --device refer
 cd ..
 expect 0 "$STOKES" check a/b/scene.json
 
+# A picture with a broken chunk: one line, though the library behind has its own to say.
+expect 0 "$STOKES" render "$FIXTURES/small.json" --device reference --spp 1 -o picture.exr --png
+at=$(grep -abo IDAT picture.png | head -1 | cut -d: -f1)
+printf XX | dd of=picture.png bs=1 seek=$((at + 12)) conv=notrunc 2>/dev/null
+printf '{"camera": {}, "background": {"type": "environment", "filename": "picture.png"}}' >picture.json
+expect 2 "$STOKES" check picture.json
+[ "$(wc -l <err.txt)" -eq 1 ] || fail "a broken picture takes more than one line: $(cat err.txt)"
+says err.txt '^picture\.json:1:[0-9]+: error: /background'
+
 # Devices.
 expect 3 "$STOKES" render "$FIXTURES/small.json" --device 'no such device' -o x.exr
 expect 3 env STOKES_DEVICE=nonesuch "$STOKES" render "$FIXTURES/small.json" -o x.exr
