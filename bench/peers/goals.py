@@ -160,7 +160,7 @@ def cores_rows(options, details):
     for i in range(options.rounds):
         one, two = (json.loads(subprocess.run(
             [options.stokes, "bench", SCENES / "s1.json", "--json", "--repeat", "1", "--threads", str(n), "--size", "256x256", "--spp",
-             "64", "--no-cold", "--no-parity", "--no-noise", "--seed", str(i)], check=True, capture_output=True, text=True).stdout)[0]
+             "256", "--no-cold", "--no-parity", "--no-noise", "--seed", str(i)], check=True, capture_output=True, text=True).stdout)[0]
             for n in (1, 2))
         ratios.append(two["msamples_per_second"] / one["msamples_per_second"])
     share = others.share()
