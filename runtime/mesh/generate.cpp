@@ -5,6 +5,7 @@
 
 #include "mesh/hand.h"
 #include "mesh/head.h"
+#include "mesh/in_parallel.h"
 
 namespace stokes {
 namespace {
@@ -37,8 +38,8 @@ MeshData generate_head(const GeneratorOptions& options) {
   head_bounds(shape, lo, hi);
   MeshData mesh = cut(head_field(shape), lo, hi, options.resolution);
   for (const auto& [name, mask] : head_masks(shape)) {
-    std::vector<float> values;
-    for (const Vec3d& p : mesh.positions) values.push_back(static_cast<float>(mask(p)));
+    std::vector<float> values(mesh.positions.size());
+    in_parallel(values.size(), [&](std::size_t i) { values[i] = static_cast<float>(mask(mesh.positions[i])); });
     mesh.masks.emplace_back(name, std::move(values));
   }
   return mesh;

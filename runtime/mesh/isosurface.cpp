@@ -5,6 +5,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "mesh/in_parallel.h"
 #include "mesh/self_intersection.h"
 
 namespace stokes {
@@ -113,14 +114,14 @@ void relax(MeshData& mesh, const Field& field, double level, double step) {
         neighbours[t[s]] += 2;
       }
     }
-    for (std::size_t i = 0; i < count; i++) {
-      if (!(length(normals[i]) > 0)) continue;
+    in_parallel(count, [&](std::size_t i) {
+      if (!(length(normals[i]) > 0)) return;
       const Vec3d n = normalize(normals[i]), to_middle = middles[i] / neighbours[i] - mesh.positions[i];
       Vec3d p = mesh.positions[i] + (to_middle - n * dot(n, to_middle)) * 0.7;
       const double h = 0.1 * step, f = field(p), slope = (field(p + n * h) - f) / h;
       if (slope > 0.3) p += n * std::clamp((level - f) / slope, -0.5 * step, 0.5 * step);
       mesh.positions[i] = p;
-    }
+    });
   }
 }
 
@@ -180,10 +181,11 @@ MeshData isosurface(const Grid& g, double level, const Field* refine, bool even)
   const std::vector<Vec3d> cut = mesh.positions;
   relax(mesh, *refine, level, g.step);
   take_back(mesh, cut);
-  for (const Vec3d& p : mesh.positions) {
-    const Vec3d n = gradient(*refine, p, 0.25 * g.step);
-    mesh.normals.push_back(length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0});
-  }
+  mesh.normals.resize(mesh.positions.size());
+  in_parallel(mesh.positions.size(), [&](std::size_t i) {
+    const Vec3d n = gradient(*refine, mesh.positions[i], 0.25 * g.step);
+    mesh.normals[i] = length(n) > 0 ? normalize(n) : Vec3d{0, 1, 0};
+  });
   return mesh;
 }
 
