@@ -42,9 +42,16 @@ typedef struct {
   Int first, second;  // the leaves, as their parents name them; -1: none
 } Neighbourhood;
 
+STOKES_FN Neighbourhood nothing_known(void) {
+  Neighbourhood n;
+  n.clear = n.known = real(0.0f);
+  n.first = n.second = integer(-1);
+  return n;
+}
+
 /// Lower bound of the squared distance from p to the triangles of a leaf, at most `limit`.
 STOKES_FN float leaf_distance2(const __global float* leaves, uint leaf, float3 p, float limit) {
-  const __global float* block = leaves + (ulong)((leaf & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
+  const __global float* block = leaf_block(leaves, leaf);
   for (uint blocks = (leaf & 7u) + 1u; blocks > 0u; blocks--, block += BVH_WIDTH * 10) {
     WideMask used;
     const Wide distance2 = block_distance2(block, p, &used);
@@ -57,7 +64,8 @@ STOKES_FN float leaf_distance2(const __global float* leaves, uint leaf, float3 p
   return limit;
 }
 
-/// The two nearest leaves and, in distance[0..2], lower bounds of the distances to them and to all others, at most `radius` each.
+/// The two nearest leaves (STOKES_NONE: there is none within `radius`), and lower bounds, at most `radius`, of the distances to the nearest
+/// triangle (distance[0]) and to the nearest that is in neither leaf (distance[1]).
 STOKES_NOINLINE void nearest_leaves(const __global float* nodes, const __global float* leaves, float3 p, float radius, float* distance, uint* leaf) {
   float first = radius * radius, second = first, others = first;
   leaf[0] = leaf[1] = STOKES_NONE;
@@ -124,7 +132,7 @@ STOKES_FN Real ellipsoid_clearance(const __global Ellipsoid* ellipsoid, Real3 p)
 
 /// What is nearer to p than max_radius; nothing is known where m is false.
 STOKES_FN Neighbourhood look_around(const SceneView* view, Real3 p, Real max_radius, Mask m) {
-  Neighbourhood n;
+  Neighbourhood n = nothing_known();
   Real best = m ? max_radius : real(0.0f);
   if (SCENE_HAS_QUADS)
     for (int i = 0; i < (int)view->scene->quad_count; i++) best = min_real(quad_clearance(view->quads + i, p), best);
@@ -134,7 +142,6 @@ STOKES_FN Neighbourhood look_around(const SceneView* view, Real3 p, Real max_rad
     for (int i = 0; i < (int)view->scene->ellipsoid_count; i++)
       best = min_real(ellipsoid_clearance(view->ellipsoids + i, p), best);
   n.clear = n.known = best;
-  n.first = n.second = integer(-1);
   if (SCENE_HAS_TRIANGLES) {
     float xs[LANES], ys[LANES], zs[LANES], clear[LANES], known[LANES];
     int first[LANES], second[LANES];

@@ -13,8 +13,8 @@
 
 /// What LANES paths have to tell the film: radiance per camera wavelength, and what the first hit was.
 typedef struct {
-  uint count;          // of samples that wait
-  uint pixel[LANES];   // of the window
+  uint count;         // of samples that wait
+  uint pixel[LANES];  // of the window
   float u[LANES];  // the number the camera's wavelengths came from
   float radiance[WAVELENGTHS][LANES];
   float fluorescence[WAVELENGTHS][LANES];  // the part that went through a fluorescent event
@@ -22,9 +22,6 @@ typedef struct {
   float alpha[LANES], depth[LANES];
   float albedo[3][LANES], normal[3][LANES];
 } FilmSamples;
-
-/// How many samples are to be added; with one lane a constant, which spares GPUs arrays in memory.
-STOKES_FN uint film_waiting(const FilmSamples* s) { return LANES == 1 ? 1u : s->count; }
 
 /// The nearest integer (even at halves); |value| at most FILM_LIMIT. Adding 2^23 leaves a float no fraction to keep.
 STOKES_FN long film_round(float value) {
@@ -51,15 +48,24 @@ STOKES_FN void film_add_square(__global long* words, long x) {
 /// Whether a number is finite and not too large for a word; NaN is not.
 STOKES_FN int film_accepts(float value) { return fabs(value) <= FILM_LIMIT; }
 
-/// Camera wavelength k of u and 1 / pdf in nm: camera_wavelengths for one path.
-STOKES_FN float film_wavelength(const SceneView* view, float u, int k, float* inverse_pdf) {
-  const float shifted = u + (float)k / (float)WAVELENGTHS;
-  const float x = (shifted >= 1.0f ? shifted - 1.0f : shifted) * (float)STOKES_CAMERA_KNOTS;
-  const int i = min((int)x, STOKES_CAMERA_KNOTS - 1);
-  const float knot = view->camera_knots[i];
-  const float width = view->camera_knots[i + 1] - knot;
-  *inverse_pdf = width * (float)STOKES_CAMERA_KNOTS;
-  return fma(x - (float)i, width, knot);
+/// The camera's wavelengths of LANES samples, found side by side.
+typedef struct {
+  float lambda[WAVELENGTHS][LANES];
+  float inverse_pdf[WAVELENGTHS][LANES];  // in nm, over WAVELENGTHS
+  int cell[WAVELENGTHS][LANES];           // of the spectrum, and where in it
+  float within[WAVELENGTHS][LANES];
+} FilmWavelengths;
+
+STOKES_FN void film_wavelengths(const SceneView* view, const FilmSamples* s, FilmWavelengths* w) {
+  Spectrum lambda, inverse_pdf;
+  camera_wavelengths(view, load_real(s->u), &lambda, &inverse_pdf);
+  FOR_EACH_WAVELENGTH(k) {
+    Real within;
+    store_int(spectrum_cell(lambda.v[k], &within), w->cell[k]);
+    store_real(within, w->within[k]);
+    store_real(lambda.v[k], w->lambda[k]);
+    store_real(inverse_pdf.v[k] * real(1.0f / (float)WAVELENGTHS), w->inverse_pdf[k]);
+  }
 }
 
 /// Sensor response at the fraction f of a cell of the spectrum: linear sRGB.
@@ -68,49 +74,33 @@ STOKES_FN float4 film_response(const SceneView* view, int c, float f) {
   return fma((float4)(f), b - a, a);
 }
 
-/// Film radiance of all waiting samples: x, y, z are R, G, B; w is the energy over all wavelengths.
-STOKES_FN void film_radiances(const SceneView* view, const FilmSamples* s, const float radiance[WAVELENGTHS][LANES], float4* out) {
-  if (SCENE_RGB) {
-    for (uint j = 0u; j < film_waiting(s); j++) out[j] = (float4)(radiance[0][j], radiance[1 % WAVELENGTHS][j], radiance[2 % WAVELENGTHS][j], 0.0f);
-    return;
-  }
-  // Wavelengths, their cells in the sensor's table and their weights side by side, the table's rows one after the other.
-  Spectrum lambda, inverse_pdf;
-  camera_wavelengths(view, load_real(s->u), &lambda, &inverse_pdf);
-  int cell[WAVELENGTHS][LANES];
-  float within[WAVELENGTHS][LANES], weight[WAVELENGTHS][LANES];
+/// Film radiance of sample j: x, y, z are R, G, B; w is the energy over all wavelengths.
+STOKES_FN float4 film_radiance(const SceneView* view, const float radiance[WAVELENGTHS][LANES], const FilmWavelengths* w, uint j) {
+  if (SCENE_RGB) return (float4)(radiance[0][j], radiance[1 % WAVELENGTHS][j], radiance[2 % WAVELENGTHS][j], 0.0f);
+  float4 sum = (float4)(0.0f);
   FOR_EACH_WAVELENGTH(k) {
-    Real f;
-    store_int(spectrum_cell(lambda.v[k], &f), cell[k]);
-    store_real(f, within[k]);
-    store_real(load_real(radiance[k]) * (inverse_pdf.v[k] * real(1.0f / (float)WAVELENGTHS)), weight[k]);
+    float4 response = film_response(view, w->cell[k][j], w->within[k][j]);
+    response.w = 1.0f;
+    sum = fma((float4)(radiance[k][j] * w->inverse_pdf[k][j]), response, sum);
   }
-  for (uint j = 0u; j < film_waiting(s); j++) {
-    float4 sum = (float4)(0.0f);
-    FOR_EACH_WAVELENGTH(k) {
-      float4 response = film_response(view, cell[k][j], within[k][j]);
-      response.w = 1.0f;
-      sum = fma((float4)(weight[k][j]), response, sum);
-    }
-    out[j] = sum;
-  }
+  return sum;
 }
 
 /// Radiance per nm into the spectral bins that the camera's wavelengths fall in.
-STOKES_FN void film_add_bins(const SceneView* view, __global long* words, float u, const float radiance[WAVELENGTHS][LANES], uint j, float per_quantum) {
+STOKES_FN void film_add_bins(const SceneView* view, __global long* words, const float radiance[WAVELENGTHS][LANES], const FilmWavelengths* w, uint j,
+                             float per_quantum) {
   const float begin = view->scene->spectral_begin;
   const float per_nm = (float)view->scene->spectral_bins / (view->scene->spectral_end - begin);
   for (int k = 0; k < WAVELENGTHS; k++) {
-    float inverse_pdf;
-    const float place = (film_wavelength(view, u, k, &inverse_pdf) - begin) * per_nm;
+    const float place = (w->lambda[k][j] - begin) * per_nm;
     if (!(place >= 0.0f && place < (float)view->scene->spectral_bins)) continue;
-    film_add_word(words + (int)place, radiance[k][j] * (inverse_pdf * (1.0f / (float)WAVELENGTHS)) * per_nm * per_quantum);
+    film_add_word(words + (int)place, radiance[k][j] * w->inverse_pdf[k][j] * per_nm * per_quantum);
   }
 }
 
 /// The optional channels after the base words, in the order of layout.h; all of the sample's numbers have been accepted.
-STOKES_FN void film_add_channels(const SceneView* view, __global long* words, const FilmSamples* s, uint j, float4 fluorescent,
-                                 float per_quantum) {
+STOKES_FN void film_add_channels(const SceneView* view, __global long* words, const FilmSamples* s, const FilmWavelengths* w, uint j,
+                                 float4 fluorescent, float per_quantum) {
   if (FILM_CHANNELS & FILM_ALBEDO)
     for (int i = 0; i < 3; i++) film_add_word(words++, s->albedo[i][j] * FILM_UNIT);
   if (FILM_CHANNELS & FILM_NORMAL)
@@ -122,19 +112,23 @@ STOKES_FN void film_add_channels(const SceneView* view, __global long* words, co
     film_add_word(words++, fluorescent.z * per_quantum);
     film_add_word(words++, fluorescent.w * per_quantum);
   }
-  if (FILM_SPECTRAL) film_add_bins(view, words, s->u[j], s->radiance, j, per_quantum);
-  if (FILM_KEEPS_FLUORESCENT_BINS) film_add_bins(view, words + view->scene->spectral_bins, s->u[j], s->fluorescence, j, per_quantum);
+  if (FILM_SPECTRAL) film_add_bins(view, words, s->radiance, w, j, per_quantum);
+  if (FILM_KEEPS_FLUORESCENT_BINS) film_add_bins(view, words + view->scene->spectral_bins, s->fluorescence, w, j, per_quantum);
 }
 
 /// Adds waiting sample j to its pixel. A sample with a number that is not finite or too large is counted and left out.
-STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmSamples* s, uint j, float4 rgb, float4 fluorescent) {
+STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmSamples* s, const FilmWavelengths* w, uint j) {
   // The quantum is a power of two, so this scaling is exact.
   const float per_quantum = 1.0f / view->scene->film_quantum;
+  const float4 rgb = FILM_TAKES_RGB ? (float4)(s->rgb[0][j], s->rgb[1][j], s->rgb[2][j], 0.0f) : film_radiance(view, s->radiance, w, j);
   const float4 scaled = rgb * per_quantum;
+  float4 fluorescent = (float4)(0.0f);
   int valid = film_accepts(scaled.x) & film_accepts(scaled.y) & film_accepts(scaled.z);
-  if (FILM_CHANNELS & FILM_FLUORESCENCE)
+  if (FILM_CHANNELS & FILM_FLUORESCENCE) {
+    fluorescent = film_radiance(view, s->fluorescence, w, j);
     valid &= film_accepts(fluorescent.x * per_quantum) & film_accepts(fluorescent.y * per_quantum) &
              film_accepts(fluorescent.z * per_quantum) & film_accepts(fluorescent.w * per_quantum);
+  }
   if (FILM_SPECTRAL) valid &= film_accepts(scaled.w * (float)view->scene->spectral_bins);
   if (FILM_KEEPS_FLUORESCENT_BINS) valid &= film_accepts(fluorescent.w * per_quantum * (float)view->scene->spectral_bins);
   if (FILM_CHANNELS & FILM_DEPTH) valid &= film_accepts(s->depth[j] * (1.0f / view->scene->depth_quantum));
@@ -151,30 +145,23 @@ STOKES_FN void film_add(const SceneView* view, __global long* words, const FilmS
   film_add_square(words + 7, b);
   film_add_word(words + 9, s->alpha[j] * FILM_UNIT);
   words[10] += 1;
-  if (FILM_CHANNELS | FILM_SPECTRAL) film_add_channels(view, words + FILM_BASE_WORDS, s, j, fluorescent, per_quantum);
+  if (FILM_CHANNELS | FILM_SPECTRAL) film_add_channels(view, words + FILM_BASE_WORDS, s, w, j, fluorescent, per_quantum);
 }
 
 /// Adds all waiting samples to their pixels.
 STOKES_APART void film_flush(const SceneView* view, __global long* film, FilmSamples* s) {
   if (LANES > 1 && s->count == 0u) return;
-  float4 rgb[LANES], fluorescent[LANES];
-  for (uint j = 0u; j < film_waiting(s); j++) fluorescent[j] = (float4)(0.0f);
-  if (FILM_TAKES_RGB)
-    for (uint j = 0u; j < film_waiting(s); j++) rgb[j] = (float4)(s->rgb[0][j], s->rgb[1][j], s->rgb[2][j], 0.0f);
-  else
-    film_radiances(view, s, s->radiance, rgb);
-  if (FILM_CHANNELS & FILM_FLUORESCENCE) film_radiances(view, s, s->fluorescence, fluorescent);
-  for (uint j = 0u; j < film_waiting(s); j++) film_add(view, film + (ulong)s->pixel[j] * view->scene->film_stride, s, j, rgb[j], fluorescent[j]);
+  FilmWavelengths w;
+  film_wavelengths(view, s, &w);
+  const uint count = LANES == 1 ? 1u : s->count;  // a constant spares GPUs arrays in memory
+  for (uint j = 0u; j < count; j++) film_add(view, film + (ulong)s->pixel[j] * view->scene->film_stride, s, &w, j);
   s->count = 0u;
 }
 
-/// Nothing waits. Numbers that are looked up without having been written are in their ranges.
+/// Nothing waits. Wavelengths are found for all lanes, of samples that were never written too.
 STOKES_FN void film_samples_clear(FilmSamples* s) {
   s->count = 0u;
-  for (int j = 0; j < LANES; j++) {
-    s->u[j] = 0.0f;
-    FOR_EACH_WAVELENGTH(k) s->radiance[k][j] = s->fluorescence[k][j] = 0.0f;
-  }
+  for (int j = 0; j < LANES; j++) s->u[j] = 0.0f;
 }
 
 /// Lane j of `from` waits for the film, which has room for it.

@@ -73,13 +73,6 @@ STOKES_FN Hit closest_hit_of(const SceneView* view, Real3 o, Real3 d, Real tmax,
   return hit;
 }
 
-STOKES_FN Neighbourhood nothing_known(void) {
-  Neighbourhood n;
-  n.clear = n.known = real(0.0f);
-  n.first = n.second = integer(-1);
-  return n;
-}
-
 /// The nearest hit in (0, tmax). d is a unit vector. `exclude` is the primitive that the ray starts on, or -1: it is skipped
 /// if flat, and met only at its far side if curved. Lanes that are not active get primitive -1.
 STOKES_FN Hit closest_hit(const SceneView* view, Real3 o, Real3 d, Real tmax, Int exclude, Mask active) {

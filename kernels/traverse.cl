@@ -64,9 +64,14 @@ STOKES_FN uint meet_triangles(const __global float* block, const BvhRay* ray, fl
   return inside & wide_bits((*t > wide(0.0f)) & (*t < wide(limit)));
 }
 
+/// The first of a leaf's (leaf & 7) + 1 blocks of triangles.
+STOKES_FN const __global float* leaf_block(const __global float* leaves, uint leaf) {
+  return leaves + (ulong)((leaf & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
+}
+
 /// Lowers *hit to the nearest triangle of a leaf.
 STOKES_FN void leaf_closest(const __global float* leaves, uint leaf, const BvhRay* ray, uint exclude, TriangleHit* hit) {
-  const __global float* block = leaves + (ulong)((leaf & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
+  const __global float* block = leaf_block(leaves, leaf);
   for (uint blocks = (leaf & 7u) + 1u; blocks > 0u; blocks--, block += BVH_WIDTH * 10) {
     Wide t, b1, b2;
     uint found = meet_triangles(block, ray, hit->t, &t, &b1, &b2);
@@ -89,7 +94,7 @@ STOKES_FN void leaf_closest(const __global float* leaves, uint leaf, const BvhRa
 }
 
 STOKES_FN int leaf_any(const __global float* leaves, uint leaf, const BvhRay* ray, uint exclude, float limit) {
-  const __global float* block = leaves + (ulong)((leaf & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10);
+  const __global float* block = leaf_block(leaves, leaf);
   for (uint blocks = (leaf & 7u) + 1u; blocks > 0u; blocks--, block += BVH_WIDTH * 10) {
     Wide t, b1, b2;
     for (uint found = meet_triangles(block, ray, limit, &t, &b1, &b2); found != 0u; found &= found - 1u)
@@ -106,8 +111,7 @@ STOKES_FN float entry_near(ulong entry) { return as_float((uint)(entry >> 32)); 
 /// Asks for the first lines of a child that will be visited soon: walks through large trees wait for memory more than anything.
 STOKES_FN void prefetch_child(const __global float* nodes, const __global float* leaves, uint child) {
 #if STOKES_X86
-  const __global float* first = (child & STOKES_LEAF_BIT) ? leaves + (ulong)((child & ~STOKES_LEAF_BIT) >> 3) * (BVH_WIDTH * 10)
-                                                          : nodes + (ulong)child * (BVH_WIDTH * 8);
+  const __global float* first = (child & STOKES_LEAF_BIT) ? leaf_block(leaves, child) : nodes + (ulong)child * (BVH_WIDTH * 8);
   STOKES_UNROLL for (int line = 0; line < 4; line++) __builtin_prefetch((const void*)(ulong)(first + 16 * line));
 #else
   (void)nodes, (void)leaves, (void)child;

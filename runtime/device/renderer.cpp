@@ -23,7 +23,7 @@ constexpr double kLaunchSeconds = 0.05;
 // its longest. Where lanes are idle for more than this share of a launch, later ones are longer and use fewer work-items.
 constexpr double kMostIdle = 0.25;
 constexpr double kLongLaunchSeconds = 0.5;
-constexpr std::uint32_t kLongLaunchItemsPerUnit = 8;
+constexpr std::uint32_t kFewerItems = 4;  // a quarter of them
 // A stop inside a sample pass finishes the pass if that takes no longer than this; else the pass is dropped.
 constexpr double kFinishSeconds = 0.25;
 // While passes are slow, the film is copied between passes at most this often; a dropped pass costs the work since then.
@@ -58,21 +58,16 @@ cl::Device restrict_threads(const cl::Device& device, int threads, std::vector<s
 // The launch geometry, fixed for a renderer's life: PoCL compiles the kernel again for another one.
 struct Geometry {
   std::uint32_t work_items, local_size;
-  std::uint32_t busy_items;  // of these, the ones that get paths
   std::uint64_t most_paths_per_item;
 };
 
 Geometry choose_geometry(const cl::Device& device, const DeviceInfo& info) {
   constexpr std::uint64_t kAny = 1u << 30;
   const cl_uint units = std::max<cl_uint>(1, device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
-  if (info.type != "cpu") {
-    const cl_uint items = std::min<cl_uint>(units * 2048u, 1u << 20);
-    return {items, 64, items, kAny};
-  }
+  if (info.type != "cpu") return {std::min<cl_uint>(units * 2048u, 1u << 20), 64, kAny};
   // Mesa's llvmpipe silently leaves every loop once a work-item has done 65,535 iterations in all, so each gets very few paths.
-  if (info.platform_name == "rusticl") return {4096, 1, 4096, 1};
-  const cl_uint items = std::clamp<cl_uint>(units * 32u, 64u, 4096u);
-  return {items, 1, items, kAny};
+  if (info.platform_name == "rusticl") return {4096, 1, 1};
+  return {std::clamp<cl_uint>(units * 32u, 64u, 4096u), 1, kAny};
 }
 
 }  // namespace
@@ -89,7 +84,7 @@ struct Renderer::State {
   cl::Buffer launch_buffer, counter_buffer, film_buffer, film_copy;
   std::size_t film_bytes = 0;
   Geometry geometry{};
-  double launch_seconds = kLaunchSeconds;
+  bool long_launches = false;
   int lanes = 1;
   layout::Scene header{};
   RenderCounters counters;
@@ -104,7 +99,7 @@ struct Renderer::State {
   void prepare_film(const Film& film);
   void read_counters();
   void run(const Film& film, std::uint32_t seed, const LaunchPlan::Range& range);
-  bool lengthen_launches(const RenderCounters& before);
+  bool lanes_wait(const RenderCounters& before) const;
   Film read_film(const cl::Buffer& buffer, const Film& shape) const;
 };
 
@@ -202,7 +197,8 @@ void Renderer::State::run(const Film& film, std::uint32_t seed, const LaunchPlan
   launch.pixel_end = range.pixel_end;
   launch.sample_begin = range.sample_begin;
   launch.sample_end = range.sample_end;
-  launch.chunk = (range.pixel_end - range.pixel_begin + geometry.busy_items - 1) / geometry.busy_items;
+  const std::uint32_t items = long_launches ? geometry.work_items / kFewerItems : geometry.work_items;
+  launch.chunk = (range.pixel_end - range.pixel_begin + items - 1) / items;
   launch.crop_x = film.crop_x;
   launch.crop_y = film.crop_y;
   launch.crop_width = film.width;
@@ -227,15 +223,10 @@ void Renderer::State::read_counters() {
   counters = sum;
 }
 
-// Whether launches are to be longer from now on, because of the one that has just ended; `before` are the counters before it.
-bool Renderer::State::lengthen_launches(const RenderCounters& before) {
-  if (lanes == 1 || info.type != "cpu" || geometry.most_paths_per_item == 1) return false;
-  const std::uint32_t few = std::max<std::uint32_t>(1, geometry.work_items / 32 * kLongLaunchItemsPerUnit);
-  const double busy = static_cast<double>(counters.flights - before.flights);
-  if (geometry.busy_items == few || busy > (1 - kMostIdle) * static_cast<double>(counters.lane_steps - before.lane_steps)) return false;
-  geometry.busy_items = few;
-  launch_seconds = kLongLaunchSeconds;
-  return true;
+// Whether lanes were idle for too much of what has run since the counters were `before`.
+bool Renderer::State::lanes_wait(const RenderCounters& before) const {
+  const auto flights = static_cast<double>(counters.flights - before.flights), steps = static_cast<double>(counters.lane_steps - before.lane_steps);
+  return flights < (1 - kMostIdle) * steps;
 }
 
 Film Renderer::State::read_film(const cl::Buffer& buffer, const Film& shape) const {
@@ -259,7 +250,8 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
     const auto pixels = static_cast<std::uint32_t>(film.width) * static_cast<std::uint32_t>(film.height);
     const std::uint64_t first_paths = std::uint64_t(state.geometry.work_items) * state.lanes;
     const std::uint64_t most_paths = state.geometry.work_items * state.geometry.most_paths_per_item;
-    LaunchPlan plan(pixels, begin, end, first_paths, most_paths, state.launch_seconds);
+    LaunchPlan plan(pixels, begin, end, first_paths, most_paths, state.long_launches ? kLongLaunchSeconds : kLaunchSeconds);
+    const bool adapts = state.lanes > 1 && state.info.type == "cpu" && state.geometry.most_paths_per_item > 1;
     RenderProgress report;
     report.samples_total = std::uint64_t(pixels) * (end - begin);
     state.prepare_film(film);
@@ -285,8 +277,11 @@ int Renderer::render_samples(Film& film, std::uint32_t seed, int begin, int end,
       state.run(film, seed, range);
       const double seconds = seconds_since(launched);
       plan.complete(range, seconds);
-      state.read_counters();
-      if (seconds > 0.5 * kLaunchSeconds && state.lengthen_launches(before)) plan.aim(state.launch_seconds);
+      if (adapts || progress) state.read_counters();
+      if (adapts && !state.long_launches && seconds > 0.5 * kLaunchSeconds && state.lanes_wait(before)) {
+        state.long_launches = true;
+        plan.aim(kLongLaunchSeconds);
+      }
       report.samples_done += range.paths();
 
       // After a stop only the rest of a short pass is rendered.

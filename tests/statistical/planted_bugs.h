@@ -54,8 +54,8 @@ inline constexpr PlantedBug kPlantedBugs[] = {
      "      response.z = -0.4986108f * X + 0.0415551f * Y + 1.0569715f * Z;\n"
      "    }\n"
      "    response.w = 1.0f;"},
-    {"all_slots_at_the_last_wavelength", "colored_furnace_spectral", "film.cl", "film_response(view, cell[k][j], within[k][j])",
-     "film_response(view, cell[WAVELENGTHS - 1][j], within[WAVELENGTHS - 1][j])"},
+    {"all_slots_at_the_last_wavelength", "colored_furnace_spectral", "film.cl", "film_response(view, w->cell[k][j], w->within[k][j])",
+     "film_response(view, w->cell[WAVELENGTHS - 1][j], w->within[WAVELENGTHS - 1][j])"},
     {"density_of_wavelengths_forgotten", "colored_furnace_spectral", "spectrum.cl", "inverse_pdf->v[k] = width * real((float)STOKES_CAMERA_KNOTS);", "inverse_pdf->v[k] = real(500.0f);"},
     {"dispersion_loses_the_secondaries", "dispersive_sheet", "throughput.cl", "t->beta.v[0] * real((float)WAVELENGTHS)", "t->beta.v[0]"},
 
