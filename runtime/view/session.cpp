@@ -85,7 +85,7 @@ void Session::stop() {
 
 void Session::resume() {
   change([&] {
-    if (state_.phase == SessionPhase::Done) state_.samples_total *= 2;
+    if (state_.phase == SessionPhase::Done && !wishes_.camera && !wishes_.reload) state_.samples_total *= 2;
     stopped_ = false;
   });
 }
@@ -234,6 +234,8 @@ void Session::start_view() {
   view_seconds_ = 0;
   view_samples_ = 0;
   change([&] {
+    // What is shown is of another view from here on: whoever waits for "done" must not be told so because the last one was.
+    state_.phase = SessionPhase::Preview;
     state_.camera = orbit_->camera();
     state_.moved = orbit_->moved();
     state_.orthographic = state_.camera.orthographic;

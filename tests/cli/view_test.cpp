@@ -249,7 +249,7 @@ TEST(View, AnEditIsRenderedAndAnErrorKeepsThePicture) {
   ASSERT_TRUE(listener.hears("\"line\":6"));
   const json broken = viewer.state();
   EXPECT_THAT(broken["error"]["source"], HasSubstr("7.0, \"x\""));
-  EXPECT_EQ(viewer.client().Get("/frame")->body, before);
+  EXPECT_TRUE(viewer.client().Get("/frame")->body == before) << "the last good picture";
 
   folder.replace("[7.0, \"x\", 0.2, 0.1]", "[0.1, 0.2, 0.7]");
   ASSERT_TRUE(listener.hears("event: frame"));
@@ -269,10 +269,10 @@ TEST(View, MovesTheCameraStopsAndGoesOn) {
   const std::string before = viewer.client().Get("/frame")->body;
   ASSERT_EQ(post(viewer, "/camera", {{"around", 0.7}, {"up", 0.2}, {"zoom", 0.8}})->status, 200);
   ASSERT_FALSE(viewer.wait([](const json& s) { return s["phase"] == "done" && s["moved"] == true; }).is_null());
-  EXPECT_NE(viewer.client().Get("/frame")->body.substr(32), before.substr(32));
+  EXPECT_FALSE(viewer.client().Get("/frame")->body.substr(32) == before.substr(32)) << "the picture of before the move";
   ASSERT_EQ(post(viewer, "/camera", {{"reset", true}})->status, 200);
   ASSERT_FALSE(viewer.wait([](const json& s) { return s["phase"] == "done" && s["moved"] == false; }).is_null());
-  EXPECT_EQ(viewer.client().Get("/frame")->body.substr(32), before.substr(32)) << "the same place, the same bits";
+  EXPECT_TRUE(viewer.client().Get("/frame")->body.substr(32) == before.substr(32)) << "the same place, the same bits";
   EXPECT_EQ(post(viewer, "/camera", {{"zoom", -1}})->status, 400);
   EXPECT_EQ(viewer.client().Post("/camera", "no json", "application/json")->status, 400);
 
