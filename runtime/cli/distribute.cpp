@@ -29,7 +29,8 @@ struct DistributeOptions {
   std::string scene;
   SceneOptions scene_options;
   OutputOptions output;
-  std::string crop, aov, spectral, folder, scheduler, worker_program;
+  FilmOptions film;
+  std::string folder, scheduler, worker_program;
   int workers = 0, parts = 0;
   std::optional<int> unit;
   bool plan = false, any_device = false, end_with_parent = false, quiet = false;
@@ -54,9 +55,9 @@ std::vector<std::string> render_words(const DistributeOptions& o, int samples) {
   if (!s.kernel_dir.empty()) add("--kernel-dir", absolute(s.kernel_dir));
   for (const std::string& limit : s.limits) add("--limit", limit);
   if (s.allow_outside) words.push_back("--allow-outside");
-  add("--crop", o.crop);
-  add("--aov", o.aov);
-  add("--spectral", o.spectral);
+  add("--crop", o.film.crop);
+  add("--aov", o.film.aov);
+  add("--spectral", o.film.spectral);
   return words;
 }
 
@@ -71,17 +72,14 @@ std::vector<std::string> merge_words(const DistributeOptions& o) {
 Job asked_job(const DistributeOptions& o) {
   SceneOptions scene_options = o.scene_options;
   if (o.any_device) scene_options.device = "reference";
-  const LoadedScene scene = load_scene(o.scene, scene_options, o.aov.empty() ? AovChoice{} : parse_aovs(o.aov),
-                                       o.spectral.empty() ? SpectralBins{} : parse_spectral(o.spectral), o.quiet);
-  PixelWindow window = scene.whole();
-  if (!o.crop.empty()) window = parse_crop(o.crop, window.x1, window.y1);
+  const LoadedScene scene = load_scene(o.scene, scene_options, o.film.aovs(), o.film.bins(), o.quiet);
   Job job;
   job.folder = absolute(o.folder.empty() ? o.output.path + ".parts" : o.folder);
   job.scene = absolute(o.scene);
   job.options = render_words(o, scene.compiled.samples);
   job.wanted.identity = {program_version(), scene.hash, {}, o.any_device ? std::string() : scene.device.name(), {}, scene.compiled.seed};
   job.wanted.samples_total = scene.compiled.samples;
-  job.wanted.film = scene.empty_film(window);
+  job.wanted.film = scene.empty_film(o.film.window(scene.whole()));
   job.wanted.film.words = {};
   job.output = absolute(o.output.path);
   job.merge_options = merge_words(o);
@@ -216,11 +214,8 @@ Command add_distribute(CLI::App& root) {
   app->add_flag("--any-device", o->any_device, "Parts of different devices will do: the bits then depend on who rendered which");
   app->add_option("--worker-program", o->worker_program, "stokes on the workers [this file]");
   o->scene_options.add_to(*app);
-  app->add_option("--crop", o->crop, "x0,x1,y0,y1: fractions where all are at most 1, else pixels [whole]");
-  app->add_option("--aov", o->aov, "albedo,normal,depth,variance,fluorescence or all: further channels [none]");
-  app->add_option("--spectral", o->spectral, "a:b:n: n equal bins from a to b nm, beside RGB [none]");
-  app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
-  app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
+  o->film.add_to(*app);
+  o->output.add_picture_to(*app);
   app->add_flag("-q,--quiet", o->quiet, "No progress and no messages but errors");
   app->add_flag("--end-with-parent", o->end_with_parent, "With --unit: end when the process that started it ends");
   return {app, [o] { return run_distribute(*o); }};

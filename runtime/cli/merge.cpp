@@ -93,8 +93,7 @@ Command add_merge(CLI::App& root) {
   CLI::App* app = root.add_subcommand("merge", "Adds parts (render --samples a:b) up to the whole image");
   app->add_option("-o,--output", o->output.path, "OUT.exr, .png or .film")->required();
   app->add_option("parts", o->parts, "PART ...")->required();
-  app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
-  app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
+  o->output.add_picture_to(*app);
   app->add_flag("--variance", o->output.variance, "Add Variance.R, .G, .B [as the parts were asked for]");
   return {app, [o] { return run_merge(*o); }};
 }

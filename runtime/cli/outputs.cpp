@@ -1,6 +1,7 @@
 // From a film's record to the files a user asked for. Knows names and formats of outputs, nothing of rendering.
 #include "cli/outputs.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -18,6 +19,11 @@ OutputFormat output_format(const std::string& path) {
   if (extension == ".png") return OutputFormat::Png;
   if (extension == ".film") return OutputFormat::Film;
   throw UsageError("-o: '" + path + "' ends in none of .exr, .png, .film");
+}
+
+void OutputOptions::add_picture_to(CLI::App& command) {
+  command.add_flag("--png", png, "Also write an 8-bit sRGB PNG beside");
+  command.add_option("--exposure", exposure, "Stops, for the PNG")->capture_default_str();
 }
 
 std::string png_beside(const std::string& path) { return std::filesystem::path(path).replace_extension(".png").string(); }

@@ -5,6 +5,10 @@
 
 #include "image/film_file.h"
 
+namespace CLI {
+class App;
+}
+
 namespace stokes {
 
 enum class OutputFormat { Exr, Png, Film };
@@ -18,6 +22,8 @@ struct OutputOptions {
   double exposure = 0;    ///< of PNGs, in stops
   bool variance = false;  ///< Variance.R, .G, .B
   bool part = false;      ///< the sums follow the EXR, for merging
+  /// --png and --exposure.
+  void add_picture_to(CLI::App& command);
 };
 
 /// A part's note that its render asked for Variance.R, .G, .B, so that the merged image gets them too.

@@ -29,7 +29,8 @@ struct RenderOptions {
   std::string scene;
   SceneOptions scene_options;
   OutputOptions output;
-  std::string crop, max_time, aov, spectral, samples, checkpoint, display_server, expect_scene;
+  FilmOptions film;
+  std::string max_time, samples, checkpoint, display_server, expect_scene;
   std::string progress = "auto";
   std::string launch_timeout = "60s";
   bool resume = false, restart = false, json = false, quiet = false, stats = false;
@@ -58,8 +59,8 @@ Plan make_plan(RenderOptions& o) {
   Plan plan;
   if (o.output.path.empty()) o.output.path = fs::path(o.scene).stem().string() + ".exr";
   output_format(o.output.path);
-  if (!o.aov.empty()) plan.aovs = parse_aovs(o.aov);
-  if (!o.spectral.empty()) plan.bins = parse_spectral(o.spectral);
+  plan.aovs = o.film.aovs();
+  plan.bins = o.film.bins();
   if (!o.max_time.empty()) plan.max_seconds = parse_duration("--max-time", o.max_time);
   if (!o.checkpoint.empty()) plan.checkpoint_seconds = o.checkpoint == "none" ? 0 : parse_duration("--checkpoint", o.checkpoint);
   plan.launch_seconds = parse_duration("--launch-timeout", o.launch_timeout);
@@ -77,9 +78,7 @@ Plan make_plan(RenderOptions& o) {
 
 /// An empty record for what is to be rendered; its samples_total and range follow --spp and --samples.
 FilmRecord empty_record(const RenderOptions& o, const LoadedScene& scene) {
-  PixelWindow window = scene.whole();
-  if (!o.crop.empty()) window = parse_crop(o.crop, window.x1, window.y1);
-  FilmRecord record = scene.empty_record(window);
+  FilmRecord record = scene.empty_record(o.film.window(scene.whole()));
   if (o.output.variance) record.notes.emplace_back(kVarianceNote, "yes");
   if (!o.samples.empty()) {
     const auto [begin, end] = parse_samples(o.samples);
@@ -278,12 +277,9 @@ Command add_render(CLI::App& root) {
   app->add_option("scene", o->scene, "SCENE.json")->required();
   app->add_option("-o,--output", o->output.path, "OUT.exr, .png or .film [the scene's name with .exr, in this folder]");
   o->scene_options.add_to(*app);
-  app->add_option("--crop", o->crop, "x0,x1,y0,y1: fractions where all are at most 1, else pixels [whole]");
+  o->film.add_to(*app);
   app->add_option("--max-time", o->max_time, "Stop after this time (60s, 5m, 2h) with the samples done by then [none]");
-  app->add_option("--aov", o->aov, "albedo,normal,depth,variance,fluorescence or all: further channels [none]");
-  app->add_option("--spectral", o->spectral, "a:b:n: n equal bins from a to b nm, beside RGB [none]");
-  app->add_flag("--png", o->output.png, "Also write an 8-bit sRGB PNG beside");
-  app->add_option("--exposure", o->output.exposure, "Stops, for the PNG")->capture_default_str();
+  o->output.add_picture_to(*app);
   app->add_option("--samples", o->samples, "a:b: only these samples of every pixel, as a part for `stokes merge` [all]");
   app->add_option("--expect-scene", o->expect_scene, "Refuse the scene if its hash (--json, info) is another [none]");
   app->add_option("--launch-timeout", o->launch_timeout, "Give up a device that is silent so much longer than before")->capture_default_str();

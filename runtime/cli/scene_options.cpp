@@ -101,6 +101,16 @@ FilmRecord LoadedScene::empty_record(const PixelWindow& window) const {
   return record;
 }
 
+void FilmOptions::add_to(CLI::App& command) {
+  command.add_option("--crop", crop, "x0,x1,y0,y1: fractions where all are at most 1, else pixels [whole]");
+  command.add_option("--aov", aov, "albedo,normal,depth,variance,fluorescence or all: further channels [none]");
+  command.add_option("--spectral", spectral, "a:b:n: n equal bins from a to b nm, beside RGB [none]");
+}
+
+AovChoice FilmOptions::aovs() const { return aov.empty() ? AovChoice{} : parse_aovs(aov); }
+SpectralBins FilmOptions::bins() const { return spectral.empty() ? SpectralBins{} : parse_spectral(spectral); }
+PixelWindow FilmOptions::window(const PixelWindow& whole) const { return crop.empty() ? whole : parse_crop(crop, whole.x1, whole.y1); }
+
 PixelWindow LoadedScene::whole() const {
   return {0, static_cast<int>(compiled.header.camera.width), 0, static_cast<int>(compiled.header.camera.height)};
 }

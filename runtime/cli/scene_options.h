@@ -45,6 +45,16 @@ struct FilmChoice {
   SpectralBins bins;
 };
 
+/// --crop, --aov and --spectral.
+struct FilmOptions {
+  std::string crop, aov, spectral;
+  void add_to(CLI::App& command);
+  /// Throw UsageError.
+  AovChoice aovs() const;
+  SpectralBins bins() const;
+  PixelWindow window(const PixelWindow& whole) const;
+};
+
 /// A scene ready to render, with what it was made from.
 struct LoadedScene {
   std::string path;
