@@ -39,7 +39,7 @@ MeshData generate_head(const GeneratorOptions& options) {
   MeshData mesh = cut(head_field(shape), lo, hi, options.resolution);
   for (const auto& [name, mask] : head_masks(shape)) {
     std::vector<float> values(mesh.positions.size());
-    in_parallel(values.size(), [&](std::size_t i) { values[i] = static_cast<float>(mask(mesh.positions[i])); });
+    in_parallel(values.size(), [&, &mask = mask](std::size_t i) { values[i] = static_cast<float>(mask(mesh.positions[i])); });
     mesh.masks.emplace_back(name, std::move(values));
   }
   return mesh;
