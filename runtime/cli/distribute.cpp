@@ -171,8 +171,7 @@ void require_sense(const DistributeOptions& o) {
   if ((o.workers > 0) + !o.scheduler.empty() + o.plan != 1) throw UsageError("distribute needs one of --workers N, --scheduler tcp://HOST:PORT, --plan");
   if (!o.scheduler.empty() && o.scheduler.find("://") == std::string::npos)
     throw UsageError("--scheduler: '" + o.scheduler + "' is not an address as in tcp://127.0.0.1:8786");
-  output_format(o.output.path);
-  require_writable(o.output.path);
+  require_outputs(o.output);
 }
 
 int run_distribute(const DistributeOptions& o) {

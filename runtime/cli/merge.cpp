@@ -67,8 +67,7 @@ FilmRecord add_parts(std::vector<Part>& parts) {
 }
 
 int run_merge(MergeOptions o) {
-  output_format(o.output.path);
-  require_writable(o.output.path);
+  require_outputs(o.output);
   std::vector<Part> parts;
   for (const std::string& path : o.parts) {
     parts.push_back({path, read_film(path)});

@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "image/image_file.h"
+#include "image/replace_file.h"
 
 namespace stokes {
 
@@ -27,6 +28,13 @@ void OutputOptions::add_picture_to(CLI::App& command) {
 }
 
 std::string png_beside(const std::string& path) { return std::filesystem::path(path).replace_extension(".png").string(); }
+
+void require_outputs(const OutputOptions& options) {
+  const OutputFormat format = output_format(options.path);
+  require_writable(options.path);
+  if (options.png) require_writable(png_beside(options.path));
+  if (format != OutputFormat::Film || options.png) require_image_writer();
+}
 
 Image picture(const FilmRecord& record, bool variance) {
   Image image = develop(record.film, variance);

@@ -26,6 +26,9 @@ struct OutputOptions {
   void add_picture_to(CLI::App& command);
 };
 
+/// Before any work: throws UsageError for a name that ends in no format, OutputError where the files could not be written.
+void require_outputs(const OutputOptions& options);
+
 /// A part's note that its render asked for Variance.R, .G, .B, so that the merged image gets them too.
 inline constexpr const char* kVarianceNote = "stokes:variance";
 

@@ -58,7 +58,6 @@ void say(const RenderOptions& o, const std::string& line) {
 Plan make_plan(RenderOptions& o) {
   Plan plan;
   if (o.output.path.empty()) o.output.path = fs::path(o.scene).stem().string() + ".exr";
-  output_format(o.output.path);
   plan.aovs = o.film.aovs();
   plan.bins = o.film.bins();
   if (!o.max_time.empty()) plan.max_seconds = parse_duration("--max-time", o.max_time);
@@ -261,8 +260,7 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
 
 int run_render(RenderOptions o) {
   const Plan plan = make_plan(o);
-  require_writable(o.output.path);
-  if (o.output.png) require_writable(png_beside(o.output.path));
+  require_outputs(o.output);
   require_writable(plan.checkpoint_path);
   // The reference has no driver that could crash or hang.
   if (o.scene_options.device == "reference") return render_scene(o, plan, {});

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "input/quiet_stderr.h"
 
@@ -47,11 +48,19 @@ bool is_targa(std::string_view head, const std::string& path) {
   return head[1] >= 0 && head[1] <= 1 && known && (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
 }
 
-// OpenImageIO's messages may have several lines.
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "its reader gives no reason" : text;
-}
+/// What libraries say while a file is read, they say by exceptions only.
+class QuietReader : public ImageReader {
+ public:
+  explicit QuietReader(std::unique_ptr<ImageReader> reader) : reader_(std::move(reader)) {}
+  const ImageHeader& header() const override { return reader_->header(); }
+  void read(int channels, float* pixels) override {
+    const QuietStderr quiet;
+    reader_->read(channels, pixels);
+  }
+
+ private:
+  std::unique_ptr<ImageReader> reader_;
+};
 
 }  // namespace
 
@@ -66,24 +75,17 @@ std::string image_format(const std::string& path) {
   return is_targa(head, path) ? "targa" : "";
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const OIIO::ImageSpec& config) {
+std::unique_ptr<ImageReader> open_image(const std::string& path, bool straight_alpha) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw std::runtime_error(std::filesystem::exists(path, error) ? "it is no regular file" : "there is no such file");
   const std::string format = image_format(path);
   if (format.empty()) throw std::runtime_error("it is none of PNG, JPEG, OpenEXR, HDR, TIFF, PNM, BMP and Targa");
-  auto input = OIIO::ImageInput::create(format);
-  if (!input) throw std::runtime_error("OpenImageIO has no reader for " + format + ": " + one_line(OIIO::geterror()));
-  OIIO::ImageSpec spec;
+  const ImageCodec& codec = image_codec();
   const QuietStderr quiet;
-  if (!input->open(path, spec, config)) throw std::runtime_error(one_line(input->geterror()));
-  if (spec.deep || spec.depth > 1) throw std::runtime_error("deep images and volumes cannot be used");
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("the image has no usable size");
-  return input;
-}
-
-void read_pixels(OIIO::ImageInput& input, int channels, float* pixels) {
-  const QuietStderr quiet;
-  if (!input.read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, pixels)) throw std::runtime_error(one_line(input.geterror()));
+  auto reader = codec.open(path, format, straight_alpha);
+  const ImageHeader& header = reader->header();
+  if (header.width < 1 || header.height < 1 || header.channels.empty()) throw std::runtime_error("the image has no usable size");
+  return std::make_unique<QuietReader>(std::move(reader));
 }
 
 }  // namespace stokes

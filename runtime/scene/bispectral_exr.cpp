@@ -43,13 +43,12 @@ std::size_t index_of(const std::vector<double>& bands, double band) {
 }
 
 /// Each channel's mean over all pixels.
-std::vector<double> read_means(OIIO::ImageInput& input) {
-  const OIIO::ImageSpec& spec = input.spec();
-  const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
-  const auto height = static_cast<std::size_t>(spec.height);
+std::vector<double> read_means(ImageReader& input) {
+  const ImageHeader& header = input.header();
+  const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height), channels = header.channels.size();
   if (width > kMaxSide || height > kMaxSide || channels > kMaxSide || width * height * channels > kMaxValues) throw std::runtime_error("the image is too large");
   std::vector<float> pixels(width * height * channels);
-  read_pixels(input, spec.nchannels, pixels.data());
+  input.read(static_cast<int>(channels), pixels.data());
   std::vector<double> means(channels, 0.0);
   for (std::size_t i = 0; i < pixels.size(); i++) means[i % channels] += pixels[i];
   for (double& m : means) m /= static_cast<double>(pixels.size() / channels);
@@ -60,13 +59,13 @@ std::vector<double> read_means(OIIO::ImageInput& input) {
 
 ReradiationMatrix read_bispectral_exr(const std::string& path) {
   const auto input = open_image(path);
-  const OIIO::ImageSpec spec = input->spec();
+  const std::vector<std::string>& names = input->header().channels;
 
   ReradiationMatrix matrix;
   matrix.filename = path;
   std::vector<std::pair<std::size_t, std::pair<double, double>>> channels;
-  for (std::size_t i = 0; i < spec.channelnames.size(); i++)
-    if (const auto bands = channel_bands(spec.channelnames[i])) {
+  for (std::size_t i = 0; i < names.size(); i++)
+    if (const auto bands = channel_bands(names[i])) {
       channels.emplace_back(i, *bands);
       matrix.li.push_back(bands->first);
       matrix.lo.push_back(bands->second);
@@ -79,7 +78,7 @@ ReradiationMatrix read_bispectral_exr(const std::string& path) {
   const std::vector<double> means = read_means(*input);
   matrix.values.assign(matrix.li.size() * matrix.lo.size(), 0.0);
   for (const auto& [channel, bands] : channels) {
-    if (!std::isfinite(means[channel])) throw std::runtime_error("the channel " + spec.channelnames[channel] + " is not finite");
+    if (!std::isfinite(means[channel])) throw std::runtime_error("the channel " + names[channel] + " is not finite");
     matrix.values[index_of(matrix.lo, bands.second) * matrix.li.size() + index_of(matrix.li, bands.first)] = means[channel];
   }
   return matrix;

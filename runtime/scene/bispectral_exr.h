@@ -1,5 +1,5 @@
 // Bispectral images in the EXR layout of Fichet, Pacanowski and Wilkie, "An OpenEXR Layout for Spectral Images" (JCGT 10(3), 2021).
-// Knows OpenImageIO, not scenes.
+// Knows image files, not scenes.
 #pragma once
 #include <string>
 

@@ -13,8 +13,8 @@ namespace {
 float decode_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 // The pixels as they come and as they are kept; texels are counted with the scene.
-void require_size(const OIIO::ImageSpec& spec, const std::string& path, const InputLimits& limits) {
-  const auto width = static_cast<std::uint64_t>(spec.width), height = static_cast<std::uint64_t>(spec.height);
+void require_size(const ImageHeader& header, const std::string& path, const InputLimits& limits) {
+  const auto width = static_cast<std::uint64_t>(header.width), height = static_cast<std::uint64_t>(header.height);
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels, and the limit ";
   if (std::max(width, height) > limits.image_side)
     throw std::runtime_error("it has " + size + "of a side is " + std::to_string(limits.image_side) + " (--limit image-side)");
@@ -26,20 +26,18 @@ void require_size(const OIIO::ImageSpec& spec, const std::string& path, const In
 }  // namespace
 
 ImagePixels read_image_file(const std::string& path, bool raw, const InputLimits& limits) {
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = open_image(path, config);
-  const OIIO::ImageSpec spec = input->spec();
-  require_size(spec, path, limits);
-  const bool integer = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
+  const auto input = open_image(path, /*straight_alpha=*/true);
+  const ImageHeader& header = input->header();
+  require_size(header, path, limits);
+  const bool integer = header.sample != ImageHeader::Sample::Float;
 
   // Grey (with or without alpha) has one channel of colour, everything else its first three.
-  const int channels = spec.nchannels < 3 ? 1 : 3;
-  std::vector<float> pixels(static_cast<std::size_t>(spec.width) * spec.height * channels);
-  read_pixels(*input, channels, pixels.data());
+  const int channels = header.channels.size() < 3 ? 1 : 3;
+  std::vector<float> pixels(static_cast<std::size_t>(header.width) * header.height * channels);
+  input->read(channels, pixels.data());
 
-  ImagePixels image{spec.width, spec.height, {}};
-  image.rgb.resize(static_cast<std::size_t>(spec.width) * spec.height * 3);
+  ImagePixels image{header.width, header.height, {}};
+  image.rgb.resize(static_cast<std::size_t>(header.width) * header.height * 3);
   for (std::size_t i = 0; i < image.rgb.size(); i++) {
     const float v = pixels[channels == 3 ? i : i / 3];
     if (!std::isfinite(v)) throw std::runtime_error("a pixel is not a finite number");

@@ -64,6 +64,16 @@ expect 5 "$STOKES" compare v1.exr v2.exr --html nowhere/compare.html
 expect 5 render -o w.exr --display-server 127.0.0.1:1
 says err.txt 'no viewer answers'
 
+# The part that reads and writes images stands beside the program; a broken one is told in one line.
+mkdir copy
+cp "$STOKES" copy/stokes
+echo 'no library' >copy/libstokes_image_codec.so
+expect 5 copy/stokes render "$FIXTURES/small.json" --device reference -q -o copy.exr
+says err.txt '^error: images cannot be read or written: .*libstokes_image_codec.so'
+[ "$(wc -l <err.txt)" -eq 1 ] || fail 'more than one line'
+[ ! -e copy.exr ] || fail 'an output without a picture'
+expect 0 copy/stokes render "$FIXTURES/small.json" --device reference -q -o copy.film
+
 # Plots.
 expect 0 "$STOKES" plot D65 -o d65.svg
 says d65.svg '<svg'

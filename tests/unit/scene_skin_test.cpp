@@ -107,7 +107,8 @@ TEST(SceneUnits, GeneratedMeshesAreInMillimetres) {
   const auto top = [](const std::string& unit) {
     double y = 0;
     const std::string head = R"("surfaces": [{"type": "mesh", "generator": "head", "resolution": 10, "material": {"type": "metal"}}])";
-    for (const Vec3d& p : parse(with(unit + head)).surfaces.at(0).mesh->positions) y = std::max(y, p.y);
+    const auto scene = parse(with(unit + head));
+    for (const Vec3d& p : scene.surfaces.at(0).mesh->positions) y = std::max(y, p.y);
     return y;
   };
   const double mm = top("");
