@@ -5,6 +5,10 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 . "$root/.ci/setup.sh"
 
 install_packages "$root"
-build "$root" all
+if python_environment "$root"; then
+  build "$root" all -DSTOKES_PYTHON:BOOL=ON "-DPython_EXECUTABLE:FILEPATH=$root/build/venv/bin/python"
+else
+  build "$root" all
+fi
 cd "$root/build"
 exec ctest --output-on-failure --parallel "$(nproc)" "$@"

@@ -30,17 +30,45 @@ install_packages() {
     { apt-get update >&2 && apt-get install --no-install-recommends -y $missing >&2; }
 }
 
-# build ROOT TARGET: configures where that was not done yet, then builds; ninja's output is shown when it has work or fails.
+# A Python of build/venv that sees Debian's packages and has nanobind from PyPI, which Debian lacks. False, with a line that says why, where it
+# cannot be had.
+python_environment() {
+  venv=$1/build/venv
+  "$venv/bin/python" -c 'import nanobind' 2>/dev/null && return
+  debian=/usr/bin/python3
+  [ -x "$debian" ] || debian=python3
+  printf 'installing nanobind from PyPI into build/venv\n' >&2
+  if ! { "$debian" -m venv --system-site-packages "$venv" &&
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 --timeout 15 nanobind; } >&2; then
+    printf 'the Python package is neither built nor tested: nanobind could not be installed from PyPI\n' >&2
+    return 1
+  fi
+}
+
+# configured ROOT [-DNAME:TYPE=VALUE ...]: true where the build folder is configured with these values.
+configured() {
+  cache=$1/build/CMakeCache.txt
+  [ -f "$1/build/build.ninja" ] || return
+  shift
+  for option in "$@"; do
+    grep -qxF "${option#-D}" "$cache" || return
+  done
+}
+
+# build ROOT TARGET [-DNAME:TYPE=VALUE ...]: configures where that was not done yet, then builds; ninja's output is shown when it has work or
+# fails.
 build() {
-  if [ ! -f "$1/build/build.ninja" ]; then
+  root=$1 target=$2
+  shift 2
+  if ! configured "$root" "$@"; then
     printf 'configuring\n' >&2
-    if ! cmake -S "$1" -B "$1/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo >"$1/.configure.tmp" 2>&1; then
-      cat "$1/.configure.tmp" >&2
-      rm -f "$1/.configure.tmp" "$1/build/CMakeCache.txt"
+    if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo "$@" >"$root/.configure.tmp" 2>&1; then
+      cat "$root/.configure.tmp" >&2
+      rm -f "$root/.configure.tmp" "$root/build/CMakeCache.txt"
       exit 1
     fi
-    rm -f "$1/.configure.tmp"
+    rm -f "$root/.configure.tmp"
   fi
   printf 'building\n' >&2
-  ninja -C "$1/build" --quiet "$2" >&2
+  ninja -C "$root/build" --quiet "$target" >&2
 }

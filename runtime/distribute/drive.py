@@ -3,6 +3,7 @@ JSON argument: program, folder, threads (0: all), workers (of a cluster of its o
 `program distribute --dir FOLDER --unit I`; which parts are done is asked of `program status`. Knows nothing of scenes and films."""
 import json
 import logging
+import multiprocessing
 import signal
 import subprocess
 import sys
@@ -148,6 +149,17 @@ def connect(job, dask):
     return dask.Client(cluster), cluster
 
 
+def end_cluster(client, cluster):
+    """Closes both. A worker that died while it started can keep Dask from closing (2022.12 does): its processes are ended by force then."""
+    try:
+        client.close(timeout=5)
+        if cluster:
+            cluster.close(timeout=10)
+    except (OSError, TimeoutError):
+        for process in multiprocessing.active_children():
+            process.kill()
+
+
 def interrupt(*_):
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -170,9 +182,7 @@ def run(job):
             start_workers(cluster, client, job["workers"])
         render_all(client, job)
     finally:
-        client.close(timeout=5)
-        if cluster:
-            cluster.close(timeout=10)
+        end_cluster(client, cluster)
 
 
 def main():
