@@ -1,6 +1,8 @@
 // Meshes from files and generators: their keys first, their triangles later.
 #include "scene/mesh_surface.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include "mesh/generate.h"
 #include "scene/material_reader.h"
 #include "scene/mesh_reader.h"
+#include "scene/recent_meshes.h"
 
 namespace stokes {
 namespace {
@@ -85,7 +88,7 @@ std::shared_ptr<MeshData> triangle_within(const Box& box, const MeshData* model)
   return mesh;
 }
 
-RawMesh offset_mesh(ReadContext& context, const MeshRequest& request, RawMesh& mesh, const Affine& to_world) {
+RawMesh offset_mesh(const MeshRequest& request, RawMesh& mesh, const Affine& to_world, MadeMesh& made) {
   const JsonNode node = request.o.require("offset");
   check_offset(node, request, to_world, bounds(mesh));
   if (request.by_distance_field) {
@@ -94,8 +97,8 @@ RawMesh offset_mesh(ReadContext& context, const MeshRequest& request, RawMesh& m
       std::size_t faulty = 0;
       RawMesh shell = offset_surface(mesh, request.offset, to_world, &faulty);
       if (faulty > 0)
-        context.warn(node, std::to_string(faulty) + " places of the offset surface's " + std::to_string(shell.faces.size()) +
-                               " triangles are over 5 % off the distance, turned over or crossing");
+        made.warnings.emplace_back("offset", std::to_string(faulty) + " places of the offset surface's " + std::to_string(shell.faces.size()) +
+                                                 " triangles are over 5 % off the distance, turned over or crossing");
       return shell;
     } catch (const std::runtime_error& error) {
       node.fail(error.what());
@@ -103,27 +106,56 @@ RawMesh offset_mesh(ReadContext& context, const MeshRequest& request, RawMesh& m
   }
   const std::size_t total = mesh.faces.size();
   if (const std::size_t flipped = offset_positions(mesh, request.offset, to_world))
-    context.warn(node, "the offset turned " + std::to_string(flipped) + " of " + std::to_string(total) + " triangles over");
+    made.warnings.emplace_back("offset", "the offset turned " + std::to_string(flipped) + " of " + std::to_string(total) + " triangles over");
   if (const std::size_t collapsed = drop_degenerate_faces(mesh))
-    context.warn(node, "the offset left " + std::to_string(collapsed) + " triangles without area");
+    made.warnings.emplace_back("offset", "the offset left " + std::to_string(collapsed) + " triangles without area");
   if (mesh.faces.empty()) node.fail("the offset leaves nothing of the mesh");
   return std::move(mesh);
 }
 
-RawMesh generate(const ReadContext& context, const MeshRequest& request) {
-  MeshData mesh = generate_mesh(request.generator, request.options);
-  for (Vec3d& p : mesh.positions) p = p * context.units_per_millimetre();
-  return raw_mesh_of(mesh);
+/// All that a generated mesh depends on but its offset.
+std::string generator_key(const ReadContext& context, const MeshRequest& request) {
+  std::string key = request.generator + " " + request.options.pose + " " + show(request.options.resolution) + " " + show(context.units_per_millimetre());
+  for (const auto& [name, value] : request.options.parameters) key += " " + name + "=" + show(value);
+  return key;
 }
 
-RawMesh load_mesh(ReadContext& context, const MeshRequest& request, const Affine& to_world) {
+/// Likewise for a mesh from a file: which one it is, when it was last changed, and how much of it is allowed.
+std::string file_key(const ReadContext& context, const std::string& path) {
+  struct stat file = {};
+  stat(path.c_str(), &file);
+  const auto words = [](auto... numbers) { return ((" " + std::to_string(numbers)) + ...); };
+  return path + words(file.st_dev, file.st_ino, file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec, file.st_ctim.tv_sec, file.st_ctim.tv_nsec) +
+         words(context.limits.vertices, context.limits.faces, context.limits.materials);
+}
+
+std::string mesh_key(const ReadContext& context, const MeshRequest& request, const Affine& to_world) {
+  std::string key = request.path.empty() ? generator_key(context, request) : file_key(context, request.path);
+  if (request.offset == 0) return key;
+  key += (request.by_distance_field ? " distance field " : " normals ") + show(request.offset);
+  for (const double number : to_world.m) key += " " + show(number);
+  return key;
+}
+
+/// Skin is several surfaces about one head, which is generated once.
+RawMesh generate(ReadContext& context, const MeshRequest& request) {
+  std::shared_ptr<const MeshData>& known = context.generated[generator_key(context, request)];
+  if (!known) {
+    auto mesh = std::make_shared<MeshData>(generate_mesh(request.generator, request.options));
+    for (Vec3d& p : mesh->positions) p = p * context.units_per_millimetre();
+    known = mesh;
+  }
+  return raw_mesh_of(*known);
+}
+
+RawMesh load_mesh(ReadContext& context, const MeshRequest& request, const Affine& to_world, MadeMesh& made) {
   const JsonObject& o = request.o;
   RawMesh mesh = request.path.empty() ? generate(context, request) : read_obj(context, o.require("filename"), request.path);
   const std::size_t total = mesh.faces.size();
   if (const std::size_t dropped = drop_degenerate_faces(mesh))
-    context.warn(o.node(), std::to_string(dropped) + " of " + std::to_string(total) + " triangles have no area and were dropped");
+    made.warnings.emplace_back("", std::to_string(dropped) + " of " + std::to_string(total) + " triangles have no area and were dropped");
   if (mesh.faces.empty()) o.node().fail("no triangle of the mesh has an area");
-  if (request.offset != 0) return offset_mesh(context, request, mesh, to_world);
+  if (request.offset != 0) return offset_mesh(request, mesh, to_world, made);
   return mesh;
 }
 
@@ -143,17 +175,28 @@ MaterialPtr material_for(ReadContext& context, const MeshRequest& request, const
   return request.own;
 }
 
-std::vector<SurfaceDescription> make_surfaces(ReadContext& context, const MeshRequest& request, SurfaceDescription s) {
-  std::vector<SurfaceDescription> made;
-  const RawMesh raw = load_mesh(context, request, s.transform);
+MadeMesh make_mesh(ReadContext& context, const MeshRequest& request, const Affine& to_world) {
+  MadeMesh made;
+  const RawMesh raw = load_mesh(context, request, to_world, made);
   std::vector<MeshData> parts = extract_materials(raw);
   for (std::size_t i = 0; i < parts.size(); i++) {
     if (parts[i].triangles.empty()) continue;
-    s.material = material_for(context, request, raw.materials[i]);
-    s.mesh = std::make_shared<MeshData>(std::move(parts[i]));
-    made.push_back(s);
+    made.parts.push_back(std::make_shared<MeshData>(std::move(parts[i])));
+    made.materials.push_back(raw.materials[i]);
   }
   return made;
+}
+
+std::vector<SurfaceDescription> make_surfaces(ReadContext& context, const MeshRequest& request, SurfaceDescription s) {
+  const MadeMesh made = recent_mesh(mesh_key(context, request, s.transform), nullptr, [&] { return make_mesh(context, request, s.transform); });
+  for (const auto& [key, text] : made.warnings) context.warn(key.empty() ? request.o.node() : request.o.require(key.c_str()), text);
+  std::vector<SurfaceDescription> surfaces;
+  for (std::size_t i = 0; i < made.parts.size(); i++) {
+    s.material = material_for(context, request, made.materials[i]);
+    s.mesh = made.parts[i];
+    surfaces.push_back(s);
+  }
+  return surfaces;
 }
 
 MeshRequest read_request(ReadContext& context, const JsonObject& o) {

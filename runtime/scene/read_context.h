@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -65,6 +66,7 @@ struct ReadContext {
   NameTable<MediumPtr> media{"medium"};
   NameTable<MaterialPtr> materials{"material"};
   std::map<const void*, Extent> extents{};  ///< of sums, products and blends; what is not here is one term
+  std::map<std::string, std::shared_ptr<const MeshData>> generated{};  ///< procedural meshes in scene units, by their parameters
 
   /// Scene units to the millimetre; 1 when the scene does not name its unit.
   double units_per_millimetre() const;

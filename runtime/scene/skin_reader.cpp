@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "scene/mesh_reader.h"
+#include "scene/recent_meshes.h"
 #include "scene/spectrum_reader.h"
 #include "spectral/skin.h"
 
@@ -70,6 +71,16 @@ Affine translated(Affine transform, Vec3d direction, double distance) {
   return transform;
 }
 
+std::shared_ptr<const MeshData> shell(const std::shared_ptr<const MeshData>& mesh, double distance, const Affine& to_world) {
+  std::string key = "skin " + show(distance);
+  for (const double number : to_world.m) key += " " + show(number);
+  const auto make = [&] {
+    std::vector<MeshData> parts = extract_materials(offset_surface(raw_mesh_of(welded(*mesh)), distance, to_world));
+    return MadeMesh{{std::make_shared<MeshData>(std::move(parts[0]))}, {""}, {}};
+  };
+  return recent_mesh(key, mesh, make).parts[0];
+}
+
 // The same shape `depth` scene units further to the inside.
 void sink(const ReadContext& context, SurfaceDescription& s, double depth) {
   const auto fail = [&](const std::string& message) { throw SceneError(context.scene.source, s.pointer, message); };
@@ -93,7 +104,7 @@ void sink(const ReadContext& context, SurfaceDescription& s, double depth) {
     }
     case SurfaceKind::Mesh:
       try {
-        s.mesh = std::make_shared<MeshData>(std::move(extract_materials(offset_surface(raw_mesh_of(welded(*s.mesh)), outwards, s.transform))[0]));
+        s.mesh = shell(s.mesh, outwards, s.transform);
       } catch (const std::runtime_error& error) {
         fail(std::string("skin on this mesh: ") + error.what());
       }
