@@ -140,17 +140,24 @@ void take_back(MeshData& mesh, const std::vector<Vec3d>& cut) {
 
 }  // namespace
 
-MeshData isosurface(const Grid& g, double level, const Field* refine, bool even) {
-  MeshData mesh;
+namespace {
+
+// Where vertices are to stand, before any is computed: on an edge of the grid, or in the middle of other vertices.
+struct Cut {
+  std::array<int, 3> a, b;             // the edge's corners, as steps of the grid
+  std::vector<std::uint32_t> corners;  // of a middle
+};
+
+// The triangles that cut all cells, with a cut for each vertex.
+std::vector<Cut> cut_cells(const Grid& g, double level, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<Cut> cuts;
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_edge;
-  auto corner = [](int i, int j, int k, int c) { return std::array<int, 3>{i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)}; };
-  auto vertex = [&](int i, int j, int k, int e) {
+  const auto corner = [](int i, int j, int k, int c) { return std::array<int, 3>{i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)}; };
+  const auto vertex = [&](int i, int j, int k, int e) {
     const auto a = corner(i, j, k, kEdge[e][0]), b = corner(i, j, k, kEdge[e][1]);
     const std::uint64_t key = g.index(a[0], a[1], a[2]) * 3 + static_cast<std::uint64_t>(e / 4);
-    const auto [it, fresh] = vertex_of_edge.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-    if (fresh)
-      mesh.positions.push_back(crossing(g.point(a[0], a[1], a[2]), g.point(b[0], b[1], b[2]), g.at(a[0], a[1], a[2]),
-                                        g.at(b[0], b[1], b[2]), level, refine, even ? kFewSteps : kManySteps));
+    const auto [it, fresh] = vertex_of_edge.try_emplace(key, static_cast<std::uint32_t>(cuts.size()));
+    if (fresh) cuts.push_back({a, b, {}});
     return it->second;
   };
   for (int k = 0; k + 1 < g.nz; k++)
@@ -167,16 +174,31 @@ MeshData isosurface(const Grid& g, double level, const Field* refine, bool even)
           std::vector<std::uint32_t> v(n);
           for (std::size_t s = 0; s < n; s++) v[s] = vertex(i, j, k, p.edges[s]);
           if (p.pivot >= 0) {
-            for (std::size_t s = 1; s + 1 < n; s++) mesh.triangles.push_back({v[p.pivot], v[(p.pivot + s) % n], v[(p.pivot + s + 1) % n]});
+            for (std::size_t s = 1; s + 1 < n; s++) triangles.push_back({v[p.pivot], v[(p.pivot + s) % n], v[(p.pivot + s + 1) % n]});
           } else {
-            Vec3d middle;
-            for (std::uint32_t index : v) middle += mesh.positions[index] / static_cast<double>(n);
-            const auto center = static_cast<std::uint32_t>(mesh.positions.size());
-            mesh.positions.push_back(middle);
-            for (std::size_t s = 0; s < n; s++) mesh.triangles.push_back({center, v[s], v[(s + 1) % n]});
+            const auto center = static_cast<std::uint32_t>(cuts.size());
+            cuts.push_back({{}, {}, v});
+            for (std::size_t s = 0; s < n; s++) triangles.push_back({center, v[s], v[(s + 1) % n]});
           }
         }
       }
+  return cuts;
+}
+
+}  // namespace
+
+MeshData isosurface(const Grid& g, double level, const Field* refine, bool even) {
+  MeshData mesh;
+  const std::vector<Cut> cuts = cut_cells(g, level, mesh.triangles);
+  mesh.positions.resize(cuts.size());
+  in_parallel(cuts.size(), [&](std::size_t i) {
+    const auto& [a, b, corners] = cuts[i];
+    if (corners.empty())
+      mesh.positions[i] = crossing(g.point(a[0], a[1], a[2]), g.point(b[0], b[1], b[2]), g.at(a[0], a[1], a[2]), g.at(b[0], b[1], b[2]), level, refine,
+                                   even ? kFewSteps : kManySteps);
+  });
+  for (std::size_t i = 0; i < cuts.size(); i++)
+    for (const std::uint32_t v : cuts[i].corners) mesh.positions[i] += mesh.positions[v] / static_cast<double>(cuts[i].corners.size());
   if (!refine || !even) return mesh;
   const std::vector<Vec3d> cut = mesh.positions;
   relax(mesh, *refine, level, g.step);
