@@ -55,8 +55,8 @@ std::string relative_file(const ImportTarget& target, const std::string& source_
 
 /// A spectrum of ours times a number, in the simplest form.
 ImportJson scaled(ImportJson spectrum, double factor);
-/// "eta" and "k" of gold, else of silver, from 400 to 700 nm (rounded from Johnson and Christy 1972).
-ImportJson metal_of(bool gold);
+/// "eta" and "k" of "Ag", "Al", "Au" or "Cu" from 400 to 700 nm, else null (rounded from Johnson and Christy 1972; Al: Rakic 1995).
+ImportJson metal_of(const std::string& name);
 
 /// Throw ImportError where the file is none of its kind; what has no counterpart becomes a note.
 ImportedScene import_mitsuba(const std::string& path, const ImportTarget& target);

@@ -144,8 +144,12 @@ ImportJson MitsubaImport::conductor_of(const Node& bsdf, bool rough) {
     j["eta"] = spectrum_child(bsdf, "eta", Role::Index, 0.2);
     j["k"] = spectrum_child(bsdf, "k", Role::Index, 3.9);
   } else {
-    if (name != "Ag" && name != "Au") note(named ? named : bsdf, "there is no data for this metal here: it becomes silver");
-    j.update(metal_of(name == "Au"));
+    ImportJson metal = metal_of(name);
+    if (metal.is_null()) {
+      note(named ? named : bsdf, "there is no data for this metal here: it becomes silver");
+      metal = metal_of("Ag");
+    }
+    j.update(metal);
   }
   if (rough) j["alpha"] = alpha_of(bsdf);
   expect_one(bsdf, "specular_reflectance");

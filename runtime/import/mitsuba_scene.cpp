@@ -68,19 +68,27 @@ Affine MitsubaImport::transform_of(const Node& node, const char* name) {
 }
 
 double MitsubaImport::vertical_fov(const Node& sensor, double width, double height) {
-  const double fov = xml_.number(sensor, "fov", 0);
-  const std::string axis = xml_.text(sensor, "fov_axis", "x");
-  const bool vertical = axis == "y" || (axis == "smaller" && height < width) || (axis == "larger" && height > width);
-  if (axis == "diagonal") xml_.fail(sensor, "a diagonal fov is not understood");
-  double tangent = std::tan(fov * std::numbers::pi / 360);
-  if (const Node focal = xml_.child(sensor, "focal_length")) {
-    // Of a 35 mm film: 36 by 24, measured along the diagonal.
-    const double diagonal = std::hypot(36, 24) / 2 / xml_.numbers(focal, xml_.attribute(focal, "value").substr(0, xml_.attribute(focal, "value").find("mm"))).at(0);
-    tangent = diagonal * height / std::hypot(width, height);
-  } else if (!vertical) {
-    tangent *= height / width;
+  const Node angle = xml_.child(sensor, "fov"), focal = xml_.child(sensor, "focal_length");
+  if (angle && focal) xml_.fail(sensor, "there are both a fov and a focal_length");
+  std::string axis = xml_.text(sensor, "fov_axis", "x");
+  double tangent = 0;  // of half the angle along the axis
+  if (angle) {
+    tangent = std::tan(xml_.number(sensor, "fov", 0) * std::numbers::pi / 360);
+  } else {
+    // Of a film of 36 by 24 mm, measured along the diagonal; 50mm where nothing is said.
+    std::string length = focal ? xml_.attribute(focal, "value") : "50mm";
+    if (length.ends_with("mm")) length.resize(length.size() - 2);
+    const std::vector<double> v = xml_.numbers(focal ? focal : sensor, length);
+    if (v.size() != 1) xml_.fail(focal, "expected a length such as 50mm");
+    tangent = std::hypot(36, 24) / 2 / v[0];
+    axis = "diagonal";
   }
-  return std::atan(tangent) * 360 / std::numbers::pi;
+  if (!(tangent > 0)) xml_.fail(angle ? angle : focal, "the angle of view lies outside 0 to 180 degrees");
+  if (axis == "smaller") axis = height < width ? "y" : "x";
+  if (axis == "larger") axis = height < width ? "x" : "y";
+  if (axis != "x" && axis != "y" && axis != "diagonal") xml_.fail(sensor, "fov_axis is none of x, y, diagonal, smaller and larger");
+  const double extent = axis == "x" ? width : axis == "y" ? height : std::hypot(width, height);
+  return std::atan(tangent * height / extent) * 360 / std::numbers::pi;
 }
 
 void MitsubaImport::read_film(const Node& film, ImportJson& camera) {

@@ -51,6 +51,9 @@ class PbrtReader {
  public:
   std::vector<PbrtDirective> all;
 
+  /// Names of files are relative to the scene's folder, also in files that it includes from elsewhere.
+  explicit PbrtReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
   void read(const std::string& path, int depth) {
     std::ifstream file(path, std::ios::binary);
     std::stringstream text;
@@ -65,10 +68,15 @@ class PbrtReader {
       directive.name = tokens[i].text;
       directive.file = path;
       directive.line = tokens[i].line;
+      if (directive.name == "ActiveTransform" && i + 1 < tokens.size()) directive.words.push_back(tokens[++i].text);  // the one word without quotes
       i = arguments(path, tokens, i + 1, directive);
       if (directive.name == "Include" || directive.name == "Import") {
         if (directive.words.size() != 1) throw ImportError(path, directive.line, directive.name + " needs the name of a file");
-        read((std::filesystem::path(path).parent_path() / directive.words[0]).string(), depth + 1);
+        // What an imported file sets ends with it.
+        const bool bracket = directive.name == "Import";
+        if (bracket) all.push_back(named(directive, "AttributeBegin"));
+        read((folder_ / directive.words[0]).string(), depth + 1);
+        if (bracket) all.push_back(named(directive, "AttributeEnd"));
       } else {
         all.push_back(directive);
       }
@@ -76,6 +84,16 @@ class PbrtReader {
   }
 
  private:
+  std::filesystem::path folder_;
+
+  static PbrtDirective named(const PbrtDirective& at, const char* name) {
+    PbrtDirective directive;
+    directive.name = name;
+    directive.file = at.file;
+    directive.line = at.line;
+    return directive;
+  }
+
   static std::size_t arguments(const std::string& path, const std::vector<Token>& tokens, std::size_t i, PbrtDirective& d) {
     while (i < tokens.size()) {
       const Token& t = tokens[i];
@@ -145,7 +163,7 @@ std::string PbrtDirective::text(const std::string& wanted, const std::string& fa
 }
 
 std::vector<PbrtDirective> read_pbrt(const std::string& path) {
-  PbrtReader reader;
+  PbrtReader reader(std::filesystem::path(path).parent_path());
   reader.read(path, 0);
   return std::move(reader.all);
 }

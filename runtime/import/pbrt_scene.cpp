@@ -8,8 +8,6 @@
 namespace stokes {
 namespace {
 
-std::string folder_of(const PbrtDirective& d) { return std::filesystem::path(d.file).parent_path().string(); }
-
 // pbrt's matrices stand column by column.
 bool transposed_matrix_of(const std::vector<double>& m, Affine& out) {
   if (m.size() != 16) return false;
@@ -20,7 +18,8 @@ bool transposed_matrix_of(const std::vector<double>& m, Affine& out) {
 
 }  // namespace
 
-PbrtImport::PbrtImport(const std::string& path, ImportTarget target) : target_(std::move(target)), path_(path) {}
+PbrtImport::PbrtImport(const std::string& path, ImportTarget target)
+    : target_(std::move(target)), path_(path), folder_(std::filesystem::path(path).parent_path().string()) {}
 
 void PbrtImport::note_unused(const PbrtDirective& d) {
   for (const PbrtParameter& p : d.parameters)
@@ -32,9 +31,23 @@ bool PbrtImport::apply_transform(const PbrtDirective& d) {
   const auto need = [&](std::size_t count) {
     if (n.size() != count) throw ImportError(d.file, d.line, d.name + " needs " + std::to_string(count) + " numbers");
   };
+  const Affine before = state_.transform;
   Affine step;
+  if (d.name == "ActiveTransform") {
+    if (d.words.size() != 1 || (d.words[0] != "StartTime" && d.words[0] != "EndTime" && d.words[0] != "All")) throw ImportError(d.file, d.line, "ActiveTransform needs StartTime, EndTime or All");
+    state_.at_start = d.words[0] != "EndTime";
+    if (d.words[0] != "All") note(d, "nothing moves here: transforms of the shutter's closing are left out");
+    return true;
+  }
   if (d.name == "Identity") {
     state_.transform = Affine{};
+  } else if (d.name == "CoordinateSystem" || d.name == "CoordSysTransform") {
+    if (d.words.size() != 1) throw ImportError(d.file, d.line, d.name + " needs a name");
+    const auto it = coordinate_systems_.find(d.words[0]);
+    if (d.name == "CoordinateSystem") coordinate_systems_[d.words[0]] = state_.transform;
+    else if (it == coordinate_systems_.end()) note(d, "no coordinate system is called \"" + d.words[0] + "\": nothing changes");
+    else state_.transform = it->second;
+    return true;
   } else if (d.name == "Translate") {
     need(3);
     state_.transform = state_.transform * translation_of({n[0], n[1], n[2]});
@@ -53,53 +66,82 @@ bool PbrtImport::apply_transform(const PbrtDirective& d) {
   } else {
     return false;
   }
+  if (!state_.at_start) {
+    state_.transform = before;
+    note(d, d.name + " of the shutter's closing was left out");
+  }
   return true;
 }
 
-bool PbrtImport::apply_setting(const PbrtDirective& d) {
+void PbrtImport::apply_camera(const PbrtDirective& d) {
+  if (d.words.empty() || d.words[0] != "perspective") note(d, "a camera of type \"" + (d.words.empty() ? "" : d.words[0]) + "\" has no counterpart here: a perspective one is taken");
+  world_to_camera_ = state_.transform;
+  coordinate_systems_["camera"] = state_.transform.inverse();
+  camera_directive_ = &d;
+  camera_medium_ = medium_named(d, state_.outside);
+  if (!camera_medium_.empty()) camera_["medium"] = camera_medium_;
+  fov_ = d.number("fov", 90);
+  d.find("screenwindow");
+  if (const double radius = d.number("lensradius", 0); radius > 0) {
+    camera_["aperture"] = radius;
+    camera_["fdist"] = d.number("focaldistance", 1e6);
+  }
+}
+
+bool PbrtImport::apply_option(const PbrtDirective& d) {
   const std::string type = d.words.empty() ? "" : d.words[0];
   if (d.name == "Camera") {
-    if (type != "perspective") note(d, "a camera of type \"" + type + "\" has no counterpart here: a perspective one is taken");
-    world_to_camera_ = state_.transform;
-    fov_ = d.number("fov", 90);
-    if (const double radius = d.number("lensradius", 0); radius > 0) {
-      camera_["aperture"] = radius;
-      camera_["fdist"] = d.number("focaldistance", 1e6);
-    }
+    apply_camera(d);
   } else if (d.name == "Film") {
     width_ = d.number("xresolution", 1280);
     height_ = d.number("yresolution", 720);
-    d.find("filename");
+    if (type != "rgb") note(d, "a film of type \"" + type + "\" has no counterpart here: R, G and B are taken (--spectral and --aov give the rest)");
+    for (const char* name : {"filename", "savefp16"}) d.find(name);
   } else if (d.name == "Sampler") {
     out_.json["sampler"] = {{"samples", static_cast<int>(d.number("pixelsamples", 16))}};
     if (d.find("seed")) out_.json["sampler"]["seed"] = static_cast<int>(d.number("seed", 0));
   } else if (d.name == "Integrator") {
     if (type != "path" && type != "volpath") note(d, "an integrator of type \"" + type + "\" has no counterpart here: a path tracer is taken");
     out_.json["integrator"] = {{"type", type == "volpath" ? "path tracer volumetric mis" : "path tracer mis"}, {"max bounces", static_cast<int>(d.number("maxdepth", 5))}};
+    d.find("lightsampler");  // which has no say in the mean
+  } else if (d.name == "WorldBegin") {
+    state_.transform = Affine{};
+    state_.at_start = true;
+    coordinate_systems_["world"] = Affine{};
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool PbrtImport::apply_attribute(const PbrtDirective& d) {
+  const std::string type = d.words.empty() ? "" : d.words[0];
+  if (d.name == "ReverseOrientation") {
+    state_.reverse = !state_.reverse;
   } else if (d.name == "MakeNamedMedium") {
-    if (type.empty()) throw ImportError(d.file, d.line, "the medium has no name");
-    if (d.text("type", "") != "homogeneous") {
+    if (left_out_.count(type)) {
       note(d, "only homogeneous media have a counterpart here: \"" + type + "\" becomes vacuum");
       for (const PbrtParameter& p : d.parameters) p.used = true;
     } else {
       out_.json["media"].push_back(medium_of(d));
-      media_.insert(type);
     }
   } else if (d.name == "MediumInterface") {
     state_.inside = type;
-    state_.outside = d.words.size() > 1 ? d.words[1] : "";
+    state_.outside = d.words.size() > 1 ? d.words[1] : type;  // one name is for both sides
+    medium_named(d, state_.inside), medium_named(d, state_.outside);
   } else if (d.name == "Material") {
     state_.material = material_of(d, type);
   } else if (d.name == "MakeNamedMaterial") {
     ImportJson m = material_of(d, d.text("type", ""));
     m["name"] = type;
     out_.json["materials"].push_back(m);
-    materials_.insert(type);
+    made_materials_.insert(type);
   } else if (d.name == "NamedMaterial") {
     if (!materials_.count(type)) throw ImportError(d.file, d.line, "no material is called \"" + type + "\"");
     state_.material = type;
   } else if (d.name == "Texture") {
-    textures_[type] = texture_of(d);
+    if (d.words.size() < 3) throw ImportError(d.file, d.line, "a texture needs a name, float or spectrum, and a type");
+    textures_[d.words[1] + " " + type] = texture_of(d);
   } else {
     return false;
   }
@@ -109,90 +151,27 @@ bool PbrtImport::apply_setting(const PbrtDirective& d) {
 bool PbrtImport::apply_light(const PbrtDirective& d) {
   const std::string type = d.words.empty() ? "" : d.words[0];
   if (d.name == "AreaLightSource") {
+    if (type != "diffuse") note(d, "an area light of type \"" + type + "\" has no counterpart here: a diffuse one is taken");
     state_.emit = scaled(spectrum_of(d, "L", Role::Emission, 1.0), d.number("scale", 1));
     if (d.text("twosided", "false") == "true") note(d, "lamps shine from their front side only here: \"twosided\" was left out");
     return true;
   }
   if (d.name != "LightSource" || type != "infinite") return false;
   if (out_.json.contains("background")) note(d, "there is already a background, which this one replaces");
+  double scale = d.number("scale", 1);
   if (const std::string file = d.text("filename", ""); !file.empty()) {
     note(d, "pbrt's maps are equal-area, ours of latitude and longitude: convert " + file);
-    out_.json["background"] = {{"type", "environment"}, {"filename", relative_file(target_, folder_of(d), file)}, {"scale", d.number("scale", 1)}};
+    if (!transform_json(state_.transform).is_null()) note(d, "the transform of the environment map was left out: \"rotate\" turns it about +y");
+    out_.json["background"] = {{"type", "environment"}, {"filename", relative_file(target_, folder_, file)}, {"scale", scale}};
   } else {
-    out_.json["background"] = scaled(spectrum_of(d, "L", Role::Emission, 1.0), d.number("scale", 1));
+    // The illuminance of a hemisphere of luminance 1 is pi.
+    if (const double lux = d.number("illuminance", -1); lux > 0) scale *= lux / std::numbers::pi;
+    out_.json["background"] = scaled(spectrum_of(d, "L", Role::Emission, 1.0), scale);
   }
   return true;
 }
 
-ImportJson PbrtImport::mesh_of(const PbrtDirective&, const std::string& name, ImportedMesh mesh) {
-  const std::string file = target_.stem + "_meshes/" + name + "_" + std::to_string(out_.meshes.size()) + ".obj";
-  out_.meshes.emplace_back(file, std::move(mesh));
-  return {{"type", "mesh"}, {"filename", file}};
-}
-
-ImportJson PbrtImport::triangles_of(const PbrtDirective& d) {
-  ImportedMesh mesh;
-  const PbrtParameter *p = d.find("P"), *n = d.find("N"), *uv = d.find("uv"), *indices = d.find("indices");
-  if (!p || p->numbers.size() % 3 != 0) throw ImportError(d.file, d.line, "the mesh has no \"point3 P\"");
-  const auto triples = [](const std::vector<double>& v) {
-    std::vector<std::array<double, 3>> all;
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3) all.push_back({v[i], v[i + 1], v[i + 2]});
-    return all;
-  };
-  mesh.positions = triples(p->numbers);
-  if (n && n->numbers.size() == p->numbers.size()) mesh.normals = triples(n->numbers);
-  if (uv && uv->numbers.size() == 2 * mesh.positions.size())
-    for (std::size_t i = 0; i + 1 < uv->numbers.size(); i += 2) mesh.uvs.push_back({uv->numbers[i], uv->numbers[i + 1]});
-  std::vector<double> corners = indices ? indices->numbers : std::vector<double>{0, 1, 2};
-  if (d.words.at(0) == "bilinearmesh") {
-    // A patch's corners stand row by row; flat ones are two triangles.
-    const std::vector<double> patches = indices ? corners : std::vector<double>{0, 1, 2, 3};
-    corners.clear();
-    for (std::size_t i = 0; i + 3 < patches.size(); i += 4)
-      for (const std::size_t k : {0, 1, 3, 0, 3, 2}) corners.push_back(patches[i + k]);
-    note(d, "bilinear patches become two triangles each");
-  }
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    std::array<int, 3> t;
-    for (std::size_t k = 0; k < 3; k++) {
-      t[k] = static_cast<int>(corners[i + k]);
-      if (t[k] < 0 || static_cast<std::size_t>(t[k]) >= mesh.positions.size()) throw ImportError(d.file, d.line, "an index is out of range");
-    }
-    mesh.triangles.push_back(t);
-  }
-  if (mesh.triangles.empty()) throw ImportError(d.file, d.line, "the mesh has no triangles");
-  return mesh_of(d, "mesh", std::move(mesh));
-}
-
-void PbrtImport::apply_shape(const PbrtDirective& d) {
-  const std::string type = d.words.empty() ? "" : d.words[0];
-  ImportJson surface;
-  if (type == "sphere") {
-    surface = {{"type", "sphere"}, {"radius", d.number("radius", 1)}};
-  } else if (type == "trianglemesh" || type == "bilinearmesh") {
-    surface = triangles_of(d);
-  } else if (type == "plymesh") {
-    const std::string file = d.text("filename", "");
-    try {
-      surface = mesh_of(d, std::filesystem::path(file).stem().string(), read_ply((std::filesystem::path(folder_of(d)) / file).string()));
-    } catch (const std::runtime_error& error) {
-      throw ImportError(d.file, d.line, file + " cannot be read as PLY: " + error.what());
-    }
-  } else {
-    note(d, "a shape of type \"" + type + "\" has no counterpart here and was left out");
-    for (const PbrtParameter& p : d.parameters) p.used = true;
-    return;
-  }
-  if (const ImportJson t = transform_json(state_.transform); !t.is_null()) surface["transform"] = t;
-  surface["material"] = state_.material;
-  if (!state_.emit.is_null()) surface["emit"] = state_.emit;
-  if (media_.count(state_.inside)) surface["inside"] = state_.inside;
-  if (media_.count(state_.outside)) surface["outside"] = state_.outside;
-  if (state_.reverse) surface["flip"] = true;
-  out_.json["surfaces"].push_back(surface);
-}
-
-void PbrtImport::apply(const PbrtDirective& d) {
+bool PbrtImport::apply_block(const PbrtDirective& d) {
   const bool attribute = d.name == "AttributeBegin";
   if (attribute || d.name == "TransformBegin") {
     stack_.emplace_back(state_, attribute);
@@ -203,18 +182,26 @@ void PbrtImport::apply(const PbrtDirective& d) {
     else
       state_.transform = stack_.back().first.transform;
     stack_.pop_back();
-  } else if (d.name == "WorldBegin") {
-    if (media_.count(state_.outside)) camera_["medium"] = state_.outside;
-    state_.transform = Affine{};
-  } else if (d.name == "ReverseOrientation") {
-    state_.reverse = !state_.reverse;
-  } else if (d.name == "Shape") {
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void PbrtImport::apply(const PbrtDirective& d) {
+  if (d.name == "Shape") {
     apply_shape(d);
-  } else if (!apply_transform(d) && !apply_setting(d) && !apply_light(d)) {
+  } else if (!apply_block(d) && !apply_transform(d) && !apply_option(d) && !apply_attribute(d) && !apply_light(d) && !apply_object(d)) {
     note(d, d.name + (d.words.empty() ? "" : " \"" + d.words[0] + "\"") + " has no counterpart here and was left out");
     return;
   }
   note_unused(d);
+}
+
+std::string PbrtImport::medium_named(const PbrtDirective& d, const std::string& name) const {
+  if (name.empty() || left_out_.count(name)) return "";
+  if (!media_.count(name)) throw ImportError(d.file, d.line, "no medium is called \"" + name + "\"");
+  return name;
 }
 
 void PbrtImport::finish_camera() {
@@ -222,12 +209,33 @@ void PbrtImport::finish_camera() {
     out_.note(path_, 1, "there is no camera: it stands at (0, 0, 0) and looks along +z");
     world_to_camera_ = Affine{};
   }
-  // pbrt's camera looks along +z in a left-handed frame. The angle is that of the shorter side.
+  // pbrt's camera looks along +z in a left-handed frame.
   camera_["transform"] = transform_json(world_to_camera_->inverse() * scaling_of({1, 1, -1}));
-  const double shorter = std::tan(fov_ * std::numbers::pi / 360);
-  camera_["vfov"] = std::atan(height_ <= width_ ? shorter : shorter * height_ / width_) * 360 / std::numbers::pi;
+  if (camera_["transform"].is_null()) camera_.erase("transform");
+  // The screen is 1 to either side along its shorter axis, which the angle is of; or what the window says.
+  double top = height_ <= width_ ? 1 : height_ / width_;
+  if (const PbrtParameter* window = camera_directive_ ? camera_directive_->find("screenwindow") : nullptr) {
+    const std::vector<double>& w = window->numbers;
+    const bool plain = w.size() == 4 && w[0] == -w[1] && w[2] == -w[3] && w[3] > 0 && std::abs(w[1] / w[3] * height_ / width_ - 1) < 1e-6;
+    if (plain)
+      top = w[3];
+    else
+      out_.note(camera_directive_->file, window->line, "a screenwindow that is off the middle, or not of the film's shape, was left out");
+  }
+  camera_["vfov"] = std::atan(top * std::tan(fov_ * std::numbers::pi / 360)) * 360 / std::numbers::pi;
   camera_["resolution"] = {width_, height_};
   out_.json["camera"] = camera_;
+}
+
+// Names may be used before they are made.
+void PbrtImport::collect_names(const std::vector<PbrtDirective>& directives) {
+  for (const PbrtDirective& d : directives) {
+    const std::string name = d.words.empty() ? "" : d.words[0];
+    if (d.name == "MakeNamedMaterial") materials_.insert(name);
+    if (d.name != "MakeNamedMedium") continue;
+    if (name.empty() || media_.count(name) || left_out_.count(name)) throw ImportError(d.file, d.line, "a medium needs a new name");
+    (d.text("type", "") == "homogeneous" ? media_ : left_out_).insert(name);
+  }
 }
 
 ImportedScene PbrtImport::run() {
@@ -236,8 +244,12 @@ ImportedScene PbrtImport::run() {
   for (const PbrtDirective& d : directives) world |= d.name == "WorldBegin";
   if (!world) throw ImportError(path_, 1, "this is no pbrt scene: it has no WorldBegin");
   out_.json["camera"] = ImportJson::object();
+  out_.json["sampler"] = {{"samples", 16}};
+  out_.json["integrator"] = {{"type", "path tracer volumetric mis"}, {"max bounces", 5}};
   for (const char* list : {"media", "materials", "surfaces"}) out_.json[list] = ImportJson::array();
+  collect_names(directives);
   for (const PbrtDirective& d : directives) apply(d);
+  if (!stack_.empty()) throw ImportError(path_, 1, "an AttributeBegin, TransformBegin or ObjectBegin has no end");
   finish_camera();
   return std::move(out_);
 }
