@@ -75,6 +75,7 @@ class Session {
   struct Wishes {
     bool camera = false, reload = false;
   };
+  static Orbit orbit_about(const ViewScene& scene);
   void run();
   void load();
   void prepare();
@@ -112,5 +113,16 @@ class Session {
   bool stopped_ = false, quit_ = false;
   std::thread thread_;
 };
+
+/// The one place where what others see is changed.
+template <class Change>
+void Session::change(Change&& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change();
+    state_.version++;
+  }
+  changed_.notify_all();
+}
 
 }  // namespace stokes

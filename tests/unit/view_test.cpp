@@ -34,7 +34,9 @@ float of_half(std::uint16_t half) {
 TEST(Half, EveryHalfComesBack) {
   for (unsigned h = 0; h < 65536; h++) {
     const float value = of_half(static_cast<std::uint16_t>(h));
-    if (!std::isnan(value)) ASSERT_EQ(half_of(value), h);
+    if (!std::isnan(value)) {
+      ASSERT_EQ(half_of(value), h);
+    }
   }
   EXPECT_TRUE(std::isnan(of_half(half_of(NAN))));
 }
