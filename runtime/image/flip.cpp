@@ -18,13 +18,16 @@ using Color = std::array<double, 3>;
 constexpr double kPi = std::numbers::pi;
 constexpr Color kWhite = {0.950428545, 1.0, 1.088900371};  // D65 in XYZ
 
+// sRGB's matrices from its chromaticities without rounding: those whose white is kWhite. (The usual ones of seven digits have another
+// white, which changes the mean by up to 2e-5.)
 Color rgb_to_xyz(const Color& c) {
-  return {0.4124564 * c[0] + 0.3575761 * c[1] + 0.1804375 * c[2], 0.2126729 * c[0] + 0.7151522 * c[1] + 0.0721750 * c[2],
-          0.0193339 * c[0] + 0.1191920 * c[1] + 0.9503041 * c[2]};
+  constexpr double r = 1 / 12288897.0, x = r / 2, z = r / 6;
+  return {x * (10135552 * c[0] + 8788810 * c[1] + 4435075 * c[2]), r * (2613072 * c[0] + 8788810 * c[1] + 887015 * c[2]),
+          z * (1425312 * c[0] + 8788810 * c[1] + 70074185 * c[2])};
 }
 Color xyz_to_rgb(const Color& c) {
-  return {3.2404542 * c[0] - 1.5371385 * c[1] - 0.4985314 * c[2], -0.9692660 * c[0] + 1.8760108 * c[1] + 0.0415560 * c[2],
-          0.0556434 * c[0] - 0.2040259 * c[1] + 1.0572252 * c[2]};
+  return {3.241003275 * c[0] - 1.537398934 * c[1] - 0.498615861 * c[2], -0.969224334 * c[0] + 1.875930071 * c[1] + 0.041554224 * c[2],
+          0.055639423 * c[0] - 0.204011202 * c[1] + 1.057148933 * c[2]};
 }
 Color rgb_to_ycxcz(const Color& rgb) {
   const Color c = rgb_to_xyz(rgb);

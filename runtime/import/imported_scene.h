@@ -53,6 +53,10 @@ struct ImportTarget {
 /// `path`, named in a file of `source_folder`, as a file of the target's folder would name it.
 std::string relative_file(const ImportTarget& target, const std::string& source_folder, const std::string& path);
 
+/// Where both others' films begin and end, in nm; and what is said of an index whose samples do not reach that far.
+constexpr double kFilmBegin = 360, kFilmEnd = 780;
+constexpr const char* kHeld = "an index of refraction keeps its last value beyond its samples here, and is 0 there";
+
 /// A spectrum of ours times a number, in the simplest form.
 ImportJson scaled(ImportJson spectrum, double factor);
 /// "eta" and "k" of "Ag", "Al", "Au" or "Cu" from 400 to 700 nm, else null (rounded from Johnson and Christy 1972; Al: Rakic 1995).

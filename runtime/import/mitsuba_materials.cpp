@@ -82,6 +82,7 @@ ImportJson MitsubaImport::spectrum_of(const Node& given, Role role) {
     for (std::size_t i = 0; i + 1 < v.size(); i += 2) j["wavelengths"].push_back(v[i]), j["values"].push_back(v[i + 1]);
     // Mitsuba's curves are 0 outside their samples; an index must not be.
     if (role != Role::Index) j["extrapolate"] = "zero";
+    else if (v.empty() || v.front() > kFilmBegin || v[v.size() - 2] < kFilmEnd) note(node, kHeld);
     return j;
   }
   if (tag == "float" || tag == "integer" || (tag == "spectrum" && type.empty())) {

@@ -90,6 +90,7 @@ ImportJson PbrtImport::spectrum_of(const PbrtDirective& d, const char* name, Rol
 // pbrt's curves are 0 outside their samples; an index must not be. Lamps shine with a luminance of 1, whatever their curve's height.
 ImportJson PbrtImport::as_curve(ImportJson j, const Curve& curve, const PbrtDirective& d, const PbrtParameter& p, Role role) {
   if (role != Role::Index) j["extrapolate"] = "zero";
+  else if (curve.first.front() > kFilmBegin || curve.first.back() < kFilmEnd) out_.note(d.file, p.line, kHeld);
   if (role != Role::Emission) return j;
   const double luminance = luminance_of(curve);
   if (luminance > 0) return scaled(std::move(j), 1 / luminance);
