@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace stokes::reference {
 namespace {
@@ -73,9 +72,11 @@ double distribution_sample(const CompiledScene& scene, std::uint32_t distributio
   const layout::Distribution& d = scene.distributions[distribution];
   const float* cells = &scene.cdfs[std::size_t(d.cdf) * STOKES_CDF_STRIDE];
   // The last cell that begins at or below u; cells without mass are never it.
-  const auto indices = std::views::iota(std::size_t{0}, std::size_t{STOKES_SPECTRUM_CELLS});
-  const auto above = std::ranges::upper_bound(indices, static_cast<float>(u), {}, [cells](std::size_t i) { return cells[4 * i]; });
-  const std::size_t cell = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, above - indices.begin())) - 1;
+  std::size_t cell = 0;
+  for (std::size_t end = STOKES_SPECTRUM_CELLS; end - cell > 1;) {
+    const std::size_t middle = (cell + end) / 2;
+    (cells[4 * middle] <= static_cast<float>(u) ? cell : end) = middle;
+  }
   const double begin = cells[4 * cell], end = cells[4 * cell + 1];
   const double inside = end > begin ? std::clamp((u - begin) / (end - begin), 0.0, 1.0) : 0.5;
   const float* ends = &scene.spectra[std::size_t(d.spectrum) * STOKES_SPECTRUM_STRIDE + 2 * cell];
