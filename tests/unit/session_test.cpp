@@ -44,7 +44,7 @@ class StandIn : public ViewScene {
     compiled_.samples = 12;
     camera_.width = 4;
     camera_.height_pixels = 3;
-    camera_.transform.m[0] = camera_.transform.m[5] = camera_.transform.m[10] = camera_.transform.m[15] = 1;
+    camera_.transform.m[0] = camera_.transform.m[5] = camera_.transform.m[10] = 1;
   }
   const CompiledScene& compiled() const override { return compiled_; }
   const CameraDescription& camera() const override { return camera_; }
