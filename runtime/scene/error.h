@@ -1,27 +1,31 @@
-// The one exception for bad scenes and inputs, and the map from JSON pointers to places in the file.
+// The one exception for bad scenes and inputs, and the places in the file that it tells.
 #pragma once
-#include <map>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "scene/json_places.h"
 
 namespace stokes {
 
-struct SourcePosition {
-  int line = 0, column = 0;
-};
-
-/// Where each JSON value of a scene file stands. Keys are JSON pointers.
+/// A scene file and where its values stand. Copies share the places.
 struct SourceMap {
   std::string file;
-  std::map<std::string, SourcePosition> places;
-  /// The place of `pointer`, or of its nearest ancestor that has one.
-  SourcePosition find(std::string pointer) const;
+  std::shared_ptr<const JsonPlaces> places = nullptr;  ///< null: every place is the file's begin
+  std::vector<std::string> replaced = {};              ///< pointers of values that are not the file's: what is below them has their place
+  /// The place of the value at `pointer`, or of its nearest ancestor that has one.
+  SourcePosition find(const std::string& pointer) const;
+  /// The place of the key whose value is at `pointer`, if the file has it.
+  std::optional<SourcePosition> find_key(const std::string& pointer) const;
 };
 
 /// A scene or input file is wrong. what() is one line: `file:line:col: error: /json/pointer: message`.
 class SceneError : public std::runtime_error {
  public:
   SceneError(const SourceMap& source, const std::string& pointer, const std::string& message);
+  SceneError(const std::string& file, SourcePosition place, const std::string& pointer, const std::string& message);
   explicit SceneError(const std::string& line) : std::runtime_error(line) {}
 };
 

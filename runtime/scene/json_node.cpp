@@ -74,9 +74,9 @@ void JsonNode::fail_type(const std::string& what) const {
 }
 
 void JsonNode::fail_at_key(const std::string& message) const {
-  const auto it = source_->key_places.find(pointer_);
-  if (it == source_->key_places.end()) fail(message);
-  throw SceneError(SourceMap{source_->map.file, {{pointer_, it->second}}}, pointer_, message);
+  const auto place = source_->map.find_key(pointer_);
+  if (!place) fail(message);
+  throw SceneError(source_->map.file, *place, pointer_, message);
 }
 
 double JsonNode::number(const Range& range) const {

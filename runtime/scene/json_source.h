@@ -1,4 +1,4 @@
-// A scene file as checked JSON with the place of every value. Knows JSON and files, not what a scene may say.
+// A scene file as checked JSON whose values' places can be found. Knows JSON and files, not what a scene may say.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,8 +15,7 @@ using Json = nlohmann::ordered_json;
 
 struct JsonSource {
   Json root;
-  SourceMap map;                                     ///< places of values
-  std::map<std::string, SourcePosition> key_places;  ///< places of keys, by the pointer of their value
+  SourceMap map;
 };
 
 /// Parses `text`. Throws SceneError for what JSON forbids, and for what JSON libraries let pass: duplicate keys (the spaced and

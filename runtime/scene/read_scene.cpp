@@ -47,7 +47,7 @@ SceneDescription read_scene_text(const std::string& text, const std::string& fil
 }
 
 SceneDescription read_scene(const std::string& path, const SceneOverrides& overrides, const ReadOptions& options) {
-  const auto unreadable = [&](const std::string& why) { throw SceneError(SourceMap{path, {}}, "", "the scene cannot be read: " + why); };
+  const auto unreadable = [&](const std::string& why) { throw SceneError(path, {1, 1}, "", "the scene cannot be read: " + why); };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable("it is a folder");
   std::ifstream file(path, std::ios::binary);

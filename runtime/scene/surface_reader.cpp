@@ -2,6 +2,7 @@
 #include "scene/surface_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -39,6 +40,8 @@ SurfaceDescription read_common(const Place& place, const JsonObject& o) {
   s.name = o.string("name", "");
   const auto transform = o.find("transform");
   s.transform = transform ? place.parent * read_transform(*transform) : place.parent;
+  // The product of the groups' transforms may overflow.
+  if (!std::all_of(s.transform.m.begin(), s.transform.m.end(), [](double v) { return std::isfinite(v); })) o.node().fail("the transform is not finite");
   if (const auto outside = o.find("outside")) s.outside = read_medium(place.context, *outside);
   if (const auto inside = o.find("inside")) s.inside = read_medium(place.context, *inside);
   if (const auto emit = o.find("emit")) s.emit = read_spectrum(place.context, *emit, SpectrumRole::Emission, kNotNegative);

@@ -42,6 +42,7 @@ Affine read_axes(const JsonNode& node) {
 
 Affine rotation(const JsonNode& node, double degrees, Vec3d axis) {
   if (!(length(axis) > 0)) node.fail("the axis of rotation is zero");
+  if (!std::isfinite(length(axis))) node.fail("the axis of rotation is too long");
   const Vec3d a = normalize(axis);
   // Quarter turns are exact, so that boxes close without slits.
   const double turns = std::fmod(degrees, 360.0) / 90.0;

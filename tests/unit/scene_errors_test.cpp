@@ -71,6 +71,11 @@ const BadScene kBadScenes[] = {
     {"matrix_projective", placed(R"({"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1,1]})"),
      "/surfaces/0/transform/matrix/14: the last row of the matrix must be 0 0 0 1"},
     {"rotate_axis", placed(R"({"rotate": [30, 0, 0, 0]})"), "/surfaces/0/transform/rotate: the axis of rotation is zero"},
+    {"rotate_axis_long", placed(R"({"rotate": [30, 1e200, 0, 0]})"), "/surfaces/0/transform/rotate: the axis of rotation is too long"},
+    {"groups_overflow", with(R"("surfaces": [{"type": "group", "transform": {"scale": 1e100}, "children": [{"type": "group", "transform": {"scale": 1e100},
+      "children": [{"type": "group", "transform": {"scale": 1e100}, "children": [{"type": "group", "transform": {"scale": 1e100}, "children": [
+      {"type": "sphere", "material": {"type": "lambertian"}}]}]}]}]}])"),
+     "/surfaces/0/children/0/children/0/children/0/children/0: the transform is not finite"},
     {"two_commands", placed(R"({"scale": 2, "translate": [0, 0, 1]})"),
      "/surfaces/0/transform: one transform command to an entry: use an array"},
     {"command_unknown", placed(R"([{"tranlate": [0, 0, 1]}])"),

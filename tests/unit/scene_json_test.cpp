@@ -33,6 +33,26 @@ TEST(SceneJson, DuplicateKeys) {
             "scene.json:3:1: error: /integrator/max_bounces: this key is \"max bounces\" again");
 }
 
+TEST(SceneJson, DuplicateKeysFarIn) {
+  // The second of two that are spelt alike, below others that have the same name; escapes make no other key.
+  EXPECT_EQ(error_of("{\"camera\": {},\n \"media\": [[], {\"g\": 1}, {\"g\": {\"a/b\": 1,\n\"c\": 2, \"a\\u002fb\": 3}}]}"),
+            "scene.json:3:9: error: /media/2/g/a~1b: this key occurs twice");
+  // What is not JSON is told first, wherever it stands.
+  EXPECT_THAT(error_of("{\"camera\": {},\n \"camera\": {}\n, x}"), testing::StartsWith("scene.json:3:3: error: /camera: not JSON:"));
+}
+
+TEST(SceneJson, PlacesOfKeysWithEscapes) {
+  const SceneDescription s = parse("{\"camera\": {},\n \"$sch\\u0065ma\": \"x\",\n \"media\": [{\"type\": \"vacuum\",\n \"n\\u0061me\": \"v\"}]}");
+  EXPECT_EQ(s.source.find("/$schema").line, 2);
+  EXPECT_EQ(s.source.find("/media/0/name").line, 4);
+  EXPECT_EQ(s.source.find("/media/0/name").column, 15);
+  EXPECT_EQ(s.source.find_key("/media/0/name").value().column, 2);
+  EXPECT_EQ(s.source.find("/media/1/name").line, 3);  // there is none: its nearest ancestor's
+  EXPECT_FALSE(s.source.find_key("/media/1/name").has_value());
+  EXPECT_FALSE(s.source.find_key("/media/0").has_value());
+  EXPECT_EQ(error_of("{\"a\\\"b\\\\\": 1}"), "scene.json:1:2: error: /a\"b\\: unknown key in a scene");
+}
+
 TEST(SceneJson, WhatIsNotJson) {
   EXPECT_EQ(error_of(with("\"background\": NaN")), "scene.json:2:15: error: /background: NaN is not a number in JSON; values must be finite");
   EXPECT_EQ(error_of(with("\"background\": Infinity")), "scene.json:2:15: error: /background: Infinity is not a number in JSON; values must be finite");
@@ -45,6 +65,11 @@ TEST(SceneJson, WhatIsNotJson) {
   EXPECT_THAT(error_of("{\"camera\": {} / eye\n}"), testing::StartsWith("scene.json:1:1"));
   EXPECT_THAT(error_of("{\"camera\": {} /* eye\n}"), testing::HasSubstr("not JSON"));
   EXPECT_THAT(error_of("{\"camera\": {}} /* eye * /"), testing::HasSubstr("not JSON"));
+  // A comment to the text's end: the library counts that end too.
+  EXPECT_THAT(error_of("{\"a\": 1/"), testing::StartsWith("scene.json:1:"));
+  EXPECT_THAT(error_of("{\"a\": 1///"), testing::StartsWith("scene.json:1:"));
+  EXPECT_THAT(error_of("{\"a\": 1/* "), testing::StartsWith("scene.json:1:"));
+  EXPECT_EQ(error_of(std::string("{\"camera\": {}}\n\0}}x", 18)), "scene.json:2:1: error: not JSON: there is a character 0");
   EXPECT_THAT(error_of(""), testing::StartsWith("scene.json:1:1: error: not JSON:"));
   EXPECT_THAT(error_of("{\"camera\": \"\xff\"}"), testing::HasSubstr("not JSON"));
   EXPECT_EQ(error_of("[]"), "scene.json:1:1: error: expected a scene, not an array");
@@ -101,6 +126,17 @@ TEST(SceneOverride, ReplacesAndCreates) {
   EXPECT_EQ(s.samples, 5);
   EXPECT_EQ(s.surfaces.at(0).height, 3);
   EXPECT_EQ(s.surfaces.size(), 2u);
+}
+
+TEST(SceneOverride, PlacesBelowAreGone) {
+  const std::string text = "{\"camera\": {\"vfov\": 30},\n \"sampler\": {\"type\": \"cmj\",\n \"seed\": 1},\n \"surfaces\": []}";
+  const SceneDescription s = parse(text, {{"/sampler/seed", "2"}, {"/sampler", R"({"seed": 3})"}, {"/camera/fdist", "2"}});
+  EXPECT_EQ(s.seed, 3u);
+  EXPECT_EQ(s.source.find("/sampler/seed").line, 2);
+  EXPECT_EQ(s.source.find("/sampler/seed").column, 13);  // of the sampler that the file has
+  EXPECT_EQ(s.source.find("/camera/vfov").column, 21);
+  EXPECT_EQ(s.source.find("/camera/fdist").column, 12);
+  EXPECT_EQ(error_of(text, {{"/sampler", R"({"sed": 3})"}}), "scene.json:2:13: error: /sampler/sed: unknown key in a sampler; did you mean \"seed\"?");
 }
 
 TEST(SceneOverride, FailsWhereThePointerLeadsNowhere) {
