@@ -2,7 +2,9 @@
 """Damages kernel caches and renders: damage_caches.py STOKES OPENCL_FAULTS.SO [--count 100] [--seed 1] [--trust].
 
 Half of the damage is done to Stokes' own cache, half to the driver's in POCL_CACHE_DIR; each file may be emptied, cut, filled with zeros or have
-bits flipped. Every render must succeed with the bits of the first. --trust is the control: the driver uses its cache as it would by itself, ours is
+bits flipped. The first is none of these: the kernels of another picture stand in the file of ours, sound and of the length that its header says, so
+that only the checksum tells. Every render must succeed with the bits of the first and without a crash of the driver, which would have been given
+what is damaged. --trust is the control: the driver uses its cache as it would by itself, ours is
 empty, and all damage is done to the code that the driver loads. Then drivers must crash, which a further attempt or an exit code tells; where none
 does, the damage is harmless and the test without --trust shows nothing."""
 import argparse
@@ -10,6 +12,7 @@ import collections
 import os
 import random
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -55,6 +58,26 @@ def damage(path, rng):
     return way
 
 
+def largest(folder):
+    """The kernels among the files of our cache; what else is there is some bytes long."""
+    return max(files_below(folder), key=os.path.getsize)
+
+
+def swap_kernels(path, others):
+    """Puts the kernels of the file `others` into that at `path`; the header keeps its magic, key and checksum, and says their length."""
+    header = struct.Struct("<8s2QQQ")  # as in runtime/device/binary_cache.cpp
+    with open(others, "rb") as file:
+        kernels = file.read()[header.size:]
+    with open(path, "r+b") as file:
+        magic, key0, key1, length, checksum = header.unpack(file.read(header.size))
+        if magic != b"STOKESB1" or length + header.size != os.path.getsize(path):
+            sys.exit("the cache's files have another header than this test knows")
+        file.seek(0)
+        file.write(header.pack(magic, key0, key1, len(kernels), checksum) + kernels)
+        file.truncate()
+    return "swapped"
+
+
 def main():
     options = arguments()
     rng = random.Random(options.seed)
@@ -64,8 +87,8 @@ def main():
         environment = {**os.environ, "XDG_CACHE_HOME": folder + "/cache", "POCL_CACHE_DIR": folder + "/driver"}
         sharing = {**environment, "LD_PRELOAD": faults, "OPENCL_FAULTS_SHARED_CACHE": "1"}
 
-        def render(output, env):
-            return subprocess.run([stokes, "render", SCENE, "--integrator", "normals", "-o", output], env=env,
+        def render(output, env, integrator="normals"):
+            return subprocess.run([stokes, "render", SCENE, "--integrator", integrator, "-o", output], env=env,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=300)
 
         # The driver's cache is filled as it would fill it itself, without being given a folder of its own.
@@ -76,6 +99,14 @@ def main():
         for name in ("cache", "driver"):
             shutil.copytree(name, name + ".whole")
 
+        others = None
+        if not options.trust:
+            if render("other.exr", {**environment, "XDG_CACHE_HOME": folder + "/other"}, "ao").returncode != 0:
+                sys.exit("the render of another picture failed")
+            others = largest("other")
+            if os.path.basename(others) == os.path.basename(largest("cache")):
+                sys.exit("two pictures have the same kernels")
+
         failures, crashes, ways = 0, 0, collections.Counter()
         for number in range(options.count):
             for name in ("cache", "driver"):
@@ -83,8 +114,12 @@ def main():
                 if name == "driver" or not options.trust:
                     shutil.copytree(name + ".whole", name)
             victim = "driver" if options.trust or number % 2 else "cache"
-            path = rng.choice([path for path in files_below(victim) if path.endswith(".so") or not options.trust])
-            way = damage(path, rng)
+            if number == 0 and others:
+                path = largest("cache")
+                way = swap_kernels(path, others)
+            else:
+                path = rng.choice([path for path in files_below(victim) if path.endswith(".so") or not options.trust])
+                way = damage(path, rng)
             ways[f"{victim} {way}"] += 1
             try:
                 result = render("out.exr", sharing if options.trust else environment)
@@ -98,7 +133,7 @@ def main():
                 print(f"FAILED: {number}: {os.path.relpath(path)} {way}: exit code {code}: {text or 'other bits'}")
         print(f"{options.count} renders with damaged caches ({dict(sorted(ways.items()))}): {failures} failures, {crashes} crashes")
         os.chdir("/")
-    return int(crashes == 0) if options.trust else int(failures > 0)
+    return int(crashes == 0) if options.trust else int(failures + crashes > 0)
 
 
 if __name__ == "__main__":
