@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import time
 
-from peer_case import CASES, SCENES, efficiency_ratio, run_case, run_stokes
+from peer_case import CASES, NAMES, SCENES, efficiency_ratio, run_case, run_stokes
 from run_peers import add_arguments, machine
 
 SECTIONS = ["mitsuba", "cycles", "traversal", "colour", "start", "cores", "gpu"]
@@ -55,7 +55,7 @@ def peer_rows(peer, options, details):
     details.extend(results.values())
     rows = []
     for name, case, kind, must, aim in PEER_GOALS[peer]:
-        title = f"{name}, against {peer.capitalize()}"
+        title = f"{name}, against {NAMES[peer]}"
         r = results.get(case)
         if r is None:
             rows.append(goal(peer, title, must, aim, why=failures[case]))

@@ -20,7 +20,7 @@ MITSUBA_CASES = [
     ("s3 rr5", "s3", 5, 128, 16, 4, 2.5, 6),
     ("s3", "s3", False, 64, 4, 8, 6, 15),
 ]
-# Cycles has no such goals for rates; its samples are stratified best in powers of two.
+# Others have no such goals for rates. Cycles' samples are stratified best in powers of two.
 CYCLES_CASES = [
     ("s1", "s1", False, 96, 16, 8, None, None),
     ("s1 rr5", "s1", 5, 96, 16, 8, None, None),
@@ -29,8 +29,18 @@ CYCLES_CASES = [
     ("mesh_box rr5", "mesh_box", 5, 96, 16, 8, None, None),
     ("s3 rr5", "s3", 5, 64, 8, 8, None, None),
 ]
-CASES = {"mitsuba": MITSUBA_CASES, "cycles": CYCLES_CASES}
-VARIANT = {"mitsuba": "llvm_ad_spectral", "cycles": "cycles"}
+LUX_CASES = [
+    ("s1", "s1", False, 96, 32, 8, None, None),
+    ("s1 rr5", "s1", 5, 96, 32, 8, None, None),
+    ("s2", "s2", False, 96, 16, 16, None, None),
+    ("s2hi", "s2hi", False, 96, 16, 16, None, None),
+    ("mesh_box", "mesh_box", False, 96, 32, 4, None, None),
+    ("mesh_box rr5", "mesh_box", 5, 96, 32, 4, None, None),
+    ("s3 rr5", "s3", 5, 64, 16, 4, None, None),
+]
+CASES = {"mitsuba": MITSUBA_CASES, "cycles": CYCLES_CASES, "lux": LUX_CASES}
+NAMES = {"mitsuba": "Mitsuba", "cycles": "Cycles", "lux": "LuxCore"}
+VARIANT = {"mitsuba": "llvm_ad_spectral", "cycles": "cycles", "lux": "lux"}
 
 
 def prepare_scene(name, roulette, folder, export_mesh):
@@ -51,7 +61,7 @@ def prepare_scene(name, roulette, folder, export_mesh):
 
 
 class Worker:
-    """Another renderer's process: mitsuba_worker.py or cycles_worker.py. A request is a seed or "noise", an answer a line of JSON."""
+    """Another renderer's process: its ..._worker.py. A request is a seed or "noise", an answer a line of JSON."""
 
     def __init__(self, python, peer, variant, scene, size, spp):
         self.peer = peer
@@ -82,6 +92,10 @@ def run_stokes(program, scene, size, spp, seed, noise=False, more=()):
     return json.loads(subprocess.run(command + ([] if noise else ["--no-noise"]), check=True, capture_output=True, text=True).stdout)[0]
 
 
+def python_of(peer, options):
+    return {"mitsuba": options.python, "cycles": options.cycles_python, "lux": options.lux_python}[peer]
+
+
 def mean_and_error(values):
     spread = statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else float("nan")
     return statistics.fmean(values), spread
@@ -91,24 +105,28 @@ def means(answers):
     return [mean_and_error([a["mean"][c] for a in answers]) for c in range(3)]
 
 
+def note_difference(result, of, reference):
+    pairs = list(zip(of, reference))
+    result["difference_percent"] = [100 * (a[0] / b[0] - 1) for a, b in pairs]
+    result["difference_error_percent"] = [100 * (a[1] ** 2 + b[1] ** 2) ** 0.5 / b[0] for a, b in pairs]
+
+
 def compare_with_scalar(result, case, scene, options):
     """How far our image means are from Mitsuba's scalar variant, which is the truth of the two."""
     spp = max(1, int(case[4] * options.truth_factor))
     truth = Worker(options.python, "mitsuba", "scalar_spectral", scene, case[3], spp)
     result["scalar_mean"] = means([truth.ask(50000 + i) for i in range(options.truth_rounds)])
     truth.close()
-    pairs = list(zip(result["mean"], result["scalar_mean"]))
-    result["difference_percent"] = [100 * (a[0] / b[0] - 1) for a, b in pairs]
-    result["difference_error_percent"] = [100 * (a[1] ** 2 + b[1] ** 2) ** 0.5 / b[0] for a, b in pairs]
+    note_difference(result, result["mean"], result["scalar_mean"])
 
 
 def run_case(case, peer, options, folder):
-    """`options` needs stokes, export_mesh, python and cycles_python (of the peers), rounds, truth_rounds and truth_factor.
+    """`options` needs stokes, export_mesh, python, cycles_python and lux_python (of the peers), rounds, truth_rounds and truth_factor.
     Efficiencies are of eight images of the same number of samples on both sides: where a few paths carry most of the light, the
     median pixel's variance depends on that number."""
     name, scene_name, roulette, size, spp, factor, must, aim = case
     scene = prepare_scene(scene_name, roulette, folder, options.export_mesh)
-    worker = Worker(options.cycles_python if peer == "cycles" else options.python, peer, VARIANT[peer], scene, size, spp)
+    worker = Worker(python_of(peer, options), peer, VARIANT[peer], scene, size, spp)
     run_stokes(options.stokes, scene, size, 1, 0)  # fills the kernel cache
     ours, theirs = [], []
     for i in range(options.rounds):
@@ -136,7 +154,9 @@ def run_case(case, peer, options, folder):
         "efficiency_median": finite(last["efficiency_median"] * speed), "peer_efficiency_median": finite(noise["efficiency_median"]),
         "efficiency_rgb": finite(last["efficiency_rgb"] * speed), "peer_efficiency_rgb": finite(noise["efficiency_rgb"]),
         "mean": means(ours), "peer_mean": means(theirs)}
-    if peer == "mitsuba" and options.truth_rounds > 0:
+    if peer != "mitsuba":
+        note_difference(result, result["peer_mean"], result["mean"])
+    elif options.truth_rounds > 0:
         compare_with_scalar(result, case, scene, options)
     return result
 

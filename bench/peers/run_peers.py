@@ -9,10 +9,11 @@ import subprocess
 import sys
 import tempfile
 
-from peer_case import CASES, efficiency_ratio, run_case
+from peer_case import CASES, NAMES, efficiency_ratio, run_case
 
-HEADER = ["case", "Stokes Ms/s", "peer Ms/s", "ratio", "spread", "must", "aim", "eff_med ratio", "eff_rgb ratio", "Mscat/s",
-          "mean R, G, B against scalar"]
+HEADER = ["case", "Stokes Ms/s", "peer Ms/s", "ratio", "spread", "must", "aim", "eff_med ratio", "eff_rgb ratio", "Mscat/s"]
+MEANS = {"mitsuba": "our mean R, G, B against scalar"}
+WRONG = 5  # percent: a mean as far off, and by three standard errors, is of a wrong image; its rate compares nothing
 
 
 def add_arguments(p):
@@ -21,6 +22,7 @@ def add_arguments(p):
     p.add_argument("--export-mesh", default="build/bench/peers/bench_export_mesh")
     p.add_argument("--python", default=sys.executable, help="a Python with Mitsuba")
     p.add_argument("--cycles-python", default="", help="a Python with bpy")
+    p.add_argument("--lux-python", default="", help="a Python with pyluxcore")
     p.add_argument("--rounds", type=int, default=8)
     p.add_argument("--truth-rounds", type=int, default=8, help="renders by scalar_spectral; 0: no comparison of means")
     p.add_argument("--truth-factor", type=float, default=4, help="their samples per pixel, in Mitsuba's of the case")
@@ -32,8 +34,14 @@ def number(value, digits=2):
     return "-" if value is None else f"{value:.{digits}f}" if digits else f"{value:g}"
 
 
+def header(peer):
+    return [*HEADER, MEANS.get(peer, "its mean R, G, B against ours")]
+
+
 def row(r):
-    means = ", ".join(f"{d:+.2f} ± {e:.2f} %" for d, e in zip(r.get("difference_percent", []), r.get("difference_error_percent", [])))
+    differences = list(zip(r.get("difference_percent", []), r.get("difference_error_percent", [])))
+    wrong = "WRONG IMAGE: " if any(abs(d) > max(WRONG, 3 * e) for d, e in differences) else ""
+    means = wrong + ", ".join(f"{d:+.2f} ± {e:.2f} %" for d, e in differences)
     return [r["case"], number(r["stokes_msamples"], 3), number(r["peer_msamples"], 3), number(r["ratio"]),
             f"{r['ratio_low']:.2f}-{r['ratio_high']:.2f}", number(r["must"], 0), number(r["aim"], 0),
             number(efficiency_ratio(r, "median")), number(efficiency_ratio(r, "rgb")),
@@ -55,13 +63,13 @@ def machine():
 def write_results(out, peer, results):
     record = {**machine(), "results": results}
     pathlib.Path(out + ".json").write_text(json.dumps(record, indent=1) + "\n")
-    first, name = results[0], peer.capitalize()
+    first, name = results[0], NAMES[peer]
     kind = "llvm_ad_spectral; image means against its scalar_spectral" if peer == "mitsuba" else "on the CPU, in RGB"
     lines = [f"# Stokes and {name} side by side, {record['date']}", "",
              f"{record['processor']}, one thread each, CPU seconds, in turn. Stokes {first['stokes']} on {first['device']} ({first['driver']}); "
              f"{name} {first['peer_version']} {kind}. Load average of the machine's "
              f"{record['cores']} cores at the end: {record['load_average'][0]:.1f}.", "",
-             "| " + " | ".join(HEADER) + " |", "|" + "---|" * len(HEADER)]
+             "| " + " | ".join(header(peer)) + " |", "|" + "---|" * len(header(peer))]
     lines += ["| " + " | ".join(row(r)) + " |" for r in results]
     pathlib.Path(out + ".md").write_text("\n".join(lines) + "\n")
 
@@ -75,7 +83,7 @@ def main():
     if unknown := set(wanted) - {case[0] for case in CASES[options.peer]}:
         p.error(f"--only: no case is called {', '.join(sorted(unknown))}")
     results = []
-    print(" | ".join(HEADER), flush=True)
+    print(" | ".join(header(options.peer)), flush=True)
     with tempfile.TemporaryDirectory() as folder:
         for case in CASES[options.peer]:
             if wanted and case[0] not in wanted:

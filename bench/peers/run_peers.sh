@@ -1,16 +1,18 @@
 #!/bin/sh
-# Stokes against other renderers, side by side: installs them into virtual environments (build/peers, build/cycles) and libllvm19 where
-# they are missing, builds, and runs run_peers.py with the arguments given, such as --only s1,s2 or --out bench/results/mine.
+# Stokes against other renderers, side by side: installs them into virtual environments (build/peers, build/cycles, build/lux) and libllvm19
+# where they are missing, builds, and runs run_peers.py with the arguments given, such as --only s1,s2 or --out bench/results/mine.
 #   run_peers.sh ...                against Mitsuba        run_peers.sh --peer cycles ...    against Cycles (PyPI's bpy, 350 MB)
+#   run_peers.sh --peer lux ...     against LuxCore (PyPI's pyluxcore, 250 MB)
 #   run_peers.sh --goals ...        every goal, with what was measured and whether it is met (goals.py)
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 root=$(CDPATH='' cd -- "$here/../.." && pwd)
 . "$root/.ci/setup.sh"
-script=run_peers.py mitsuba=yes cycles=no
+script=run_peers.py mitsuba=yes cycles=no lux=no
 case "${1:-} ${2:-}" in
   "--goals "*) script=goals.py cycles=yes; shift ;;
   "--peer cycles" | "--peer=cycles "*) mitsuba=no cycles=yes ;;
+  "--peer lux" | "--peer=lux "*) mitsuba=no lux=yes ;;
 esac
 
 install_packages "$root"
@@ -52,7 +54,9 @@ if [ "$cycles" = yes ]; then
     cycles_python=
   fi
 fi
+lux_python=
+if [ "$lux" = yes ]; then lux_python=$(environment lux "${STOKES_LUX_PYTHON:-}" pyluxcore pyluxcore==2.11.2); fi
 
 cd "$root"
 exec "$python" "$here/$script" --stokes "$root/build/stokes" --export-mesh "$root/build/bench/peers/bench_export_mesh" \
-  --cycles-python "$cycles_python" "$@"
+  --cycles-python "$cycles_python" --lux-python "$lux_python" "$@"
