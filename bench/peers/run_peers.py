@@ -13,7 +13,7 @@ from peer_case import CASES, NAMES, efficiency_ratio, run_case
 
 HEADER = ["case", "Stokes Ms/s", "peer Ms/s", "ratio", "spread", "must", "aim", "eff_med ratio", "eff_rgb ratio", "Mscat/s"]
 MEANS = {"mitsuba": "our mean R, G, B against scalar"}
-WRONG = 5  # percent: a mean as far off, and by three standard errors, is of a wrong image; its rate compares nothing
+WRONG = 5  # percent: a mean as far off, and by three standard errors, is of a wrong image; rates of such compare nothing
 
 
 def add_arguments(p):
@@ -38,10 +38,16 @@ def header(peer):
     return [*HEADER, MEANS.get(peer, "its mean R, G, B against ours")]
 
 
+def verdict(differences):
+    """Of pairs of a difference and its standard error, in percent."""
+    if any(abs(d) > max(WRONG, 3 * e) for d, e in differences):
+        return "WRONG IMAGE: "
+    return "NOT CONVERGED, compares nothing: " if any(e > WRONG for _, e in differences) else ""
+
+
 def row(r):
     differences = list(zip(r.get("difference_percent", []), r.get("difference_error_percent", [])))
-    wrong = "WRONG IMAGE: " if any(abs(d) > max(WRONG, 3 * e) for d, e in differences) else ""
-    means = wrong + ", ".join(f"{d:+.2f} ± {e:.2f} %" for d, e in differences)
+    means = verdict(differences) + ", ".join(f"{d:+.2f} ± {e:.2f} %" for d, e in differences)
     return [r["case"], number(r["stokes_msamples"], 3), number(r["peer_msamples"], 3), number(r["ratio"]),
             f"{r['ratio_low']:.2f}-{r['ratio_high']:.2f}", number(r["must"], 0), number(r["aim"], 0),
             number(efficiency_ratio(r, "median")), number(efficiency_ratio(r, "rgb")),

@@ -2,7 +2,7 @@
 # Stokes against other renderers, side by side: installs them into virtual environments (build/peers, build/cycles, build/lux) and libllvm19
 # where they are missing, builds, and runs run_peers.py with the arguments given, such as --only s1,s2 or --out bench/results/mine.
 #   run_peers.sh ...                against Mitsuba        run_peers.sh --peer cycles ...    against Cycles (PyPI's bpy, 350 MB)
-#   run_peers.sh --peer lux ...     against LuxCore (PyPI's pyluxcore, 250 MB)
+#   run_peers.sh --peer lux ...     against LuxCore (PyPI's pyluxcore, 500 MB)
 #   run_peers.sh --goals ...        every goal, with what was measured and whether it is met (goals.py)
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
