@@ -103,6 +103,12 @@ const layout::Surface& primitive_surface(const CompiledScene& scene, std::uint32
   return scene.surfaces[scene.triangles[i].surface];
 }
 
+bool is_hollow(const CompiledScene& scene, std::uint32_t primitive) {
+  if (primitive == STOKES_NONE) return false;
+  const auto [kind, i] = primitive_ref(scene, primitive);
+  return (kind == PrimitiveKind::Sphere && scene.spheres[i].flip) || (kind == PrimitiveKind::Ellipsoid && scene.ellipsoids[i].flip);
+}
+
 Box primitive_bounds(const CompiledScene& scene, std::uint32_t primitive) {
   const auto [kind, i] = primitive_ref(scene, primitive);
   switch (kind) {

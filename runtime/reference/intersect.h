@@ -27,6 +27,8 @@ PrimitiveRef primitive_ref(const CompiledScene& scene, std::uint32_t primitive);
 /// The inverse of primitive_ref, for a light.
 std::uint32_t light_primitive(const CompiledScene& scene, const layout::Light& light);
 std::uint32_t primitive_count(const CompiledScene& scene);
+/// True for spheres and ellipsoids whose front is their inside; false for STOKES_NONE.
+bool is_hollow(const CompiledScene& scene, std::uint32_t primitive);
 const layout::Surface& primitive_surface(const CompiledScene& scene, std::uint32_t primitive);
 
 struct Hit {

@@ -30,6 +30,9 @@ struct Vertex {
   bool specular() const { return point && is_specular(bsdf); }
 };
 
+/// A shadow ray to a hollow light ends short of it by this share of the way: a double's rounding, and far below any chord that is seen.
+constexpr double kShortOfLight = 1e-9;
+
 class Path {
  public:
   Path(const World& world, const Ray& ray, Wavelength w, Random& random)
@@ -240,9 +243,10 @@ double Path::shadow_transmittance(const Vertex& vertex, const LightSample& light
   Ray ray = {vertex.position, light.wi, vertex.primitive()};
   std::uint32_t medium = vertex.medium_towards(light.wi);
   double left = light.distance, result = 1;
+  // A light's own surface is convex and cannot stand before its own front, unless its front is its inside.
+  const bool hollow = is_hollow(scene_, light.primitive);
   for (;;) {
-    // A light's own surface is convex and cannot stand before its own front.
-    const Hit hit = world_.traversal.closest_hit(ray, left, light.primitive);
+    const Hit hit = hollow ? world_.traversal.closest_hit(ray, left * (1 - kShortOfLight)) : world_.traversal.closest_hit(ray, left, light.primitive);
     if (!hit.found()) return result * transmittance(scene_, medium, left, w_);
     if (!(primitive_surface(scene_, hit.primitive).flags & SURFACE_INTERFACE)) return 0;
     const SurfacePoint point = surface_point(scene_, hit.primitive, ray.o + ray.d * hit.t, hit.u, hit.v);

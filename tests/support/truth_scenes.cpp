@@ -128,6 +128,11 @@ TruthCase irradiance(const std::string& name, SurfaceDescription light, double e
   return c;
 }
 
+SurfaceDescription flipped(SurfaceDescription s) {
+  s.flip = !s.flip;
+  return s;
+}
+
 /// Facing down at the height z.
 Affine facing_down(double z) { return frame({1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, z}); }
 
@@ -180,6 +185,10 @@ std::vector<TruthCase> irradiance_cases() {
   cases.push_back(irradiance("tilted_sphere", sphere(tilted, 0.5, black()), truth::kFromTiltedSphere, kVariants[0]));
   cases.push_back(irradiance("ellipsoid", nearly_round(overhead, 0.5), truth::kFromSphere, kVariants[0]));
   cases.push_back(irradiance("ellipsoid", nearly_round(tilted, 0.5), truth::kFromTiltedSphere, kVariants[2]));
+  // Whose front is its inside: an opaque one hides its light, an interface shows the far half through the near one.
+  cases.push_back(irradiance("hollow_sphere", flipped(sphere(overhead, 0.5, black())), 0, kVariants[0]));
+  cases.push_back(irradiance("hollow_sphere_interface", flipped(sphere(overhead, 0.5, interface_material())), truth::kFromSphere, kVariants[0]));
+  cases.push_back(irradiance("hollow_ellipsoid", flipped(nearly_round(overhead, 0.5)), 0, kVariants[2]));
   return cases;
 }
 
