@@ -30,7 +30,22 @@ function paint() {
   if (!frame) return;
   canvas.width = frame.width; canvas.height = frame.height;
   canvas.getContext("2d").putImageData(paintFrame(frame, look), 0, 0);
+  $("hint").hidden = false;
+  showWaiting();
   fit();
+}
+
+// Before the first picture: what takes its time, and for how long already.
+let preparing = 0, waitingTimer = 0;
+function showWaiting() {
+  const waits = !frame && state && state.phase === "preparing";
+  $("waiting").hidden = !waits;
+  if (!waits) return;
+  preparing = preparing || Date.now();
+  const seconds = Math.round((Date.now() - preparing) / 1000);
+  $("waiting").textContent = `Preparing kernels${seconds > 1 ? `, ${clock(seconds)}` : ""}\nOnce for each kind of scene; the next time they are there.`;
+  clearTimeout(waitingTimer);
+  waitingTimer = setTimeout(showWaiting, 1000);
 }
 
 const fetchFrame = latest(async () => {
@@ -71,7 +86,7 @@ function showState(next) {
   $("phase").replaceChildren(phases[state.phase] + share, Object.assign(document.createElement("span"), {textContent: left}));
   $("progress").firstElementChild.style.width = 100 * state.progress + "%";
   const running = state.phase === "rendering" || state.phase === "preview";
-  $("stop").textContent = running ? "Stop" : state.phase === "done" ? "More samples" : "Resume";
+  $("stop").textContent = running || state.phase === "preparing" ? "Stop" : state.phase === "done" ? "More samples" : "Resume";
   $("stop").disabled = state.phase === "preparing" || state.phase === "failed";
   $("home").disabled = !state.moved;
   for (const id of ["save_exr", "save_png"]) $(id).disabled = !state.samples;
@@ -79,10 +94,11 @@ function showState(next) {
     $("layer").replaceChildren(...state.layers.map(l => new Option(layerNames[l] || l, l)));
     if (!state.layers.includes(look.layer)) { look.layer = "picture"; fetchFrame(); }
     $("layer").value = look.layer;
-    $("spectrum_title").textContent = "Radiance per nm" + (state.fluorescent ? ", all and excited" : "");
+    $("spectrum_title").textContent = "Radiance per nm";
   }
   showFacts();
   showProblem();
+  showWaiting();
   fit();
 }
 
@@ -90,7 +106,7 @@ function showFacts() {
   const facts = [["Samples", `${state.samples} of ${state.samples_total}`]];
   facts.push(["Speed", state.samples_per_second ? (state.samples_per_second / 1e6).toPrecision(3) + " M samples/s" : "-"]);
   facts.push(["Time left", state.phase === "done" ? "none" : state.samples ? clock(state.seconds_left) : "-"]);
-  facts.push(["Size", state.size.join(" x ")], ["Device", state.device]);
+  facts.push(["Size", state.size[0] ? state.size.join(" x ") : "-"], ["Device", state.device]);
   if (state.build_seconds >= 0.1) facts.push(["Kernels built in", clock(state.build_seconds)]);
   $("facts").replaceChildren(...facts.flatMap(([name, value]) => [Object.assign(document.createElement("dt"), {textContent: name}), Object.assign(document.createElement("dd"), {textContent: value})]));
 }
