@@ -65,9 +65,8 @@ void print_text(const ImageDifference& d, const std::optional<ParityResult>& par
   std::printf("MSE      %.6g\nrelMSE   %.6g\nFLIP     %.6g\nlargest  %.6g at (%d, %d)\n", d.mse, d.relative_mse, d.flip, d.largest, d.largest_x, d.largest_y);
   std::printf("means    %.6g %.6g %.6g and %.6g %.6g %.6g\n", d.mean_a[0], d.mean_a[1], d.mean_a[2], d.mean_b[0], d.mean_b[1], d.mean_b[2]);
   if (d.not_finite > 0) std::printf("values that are not finite: %llu\n", static_cast<unsigned long long>(d.not_finite));
-  if (parity)
-    std::printf("noise    %s", describe(*parity).c_str());
-  else
+  if (parity) std::printf("noise    %s", describe(*parity).c_str());
+  if (d.identical || !parity)
     std::printf("%s\n", d.identical ? "identical" : "not identical (no variances to judge by: render with --aov variance)");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "view/frame.h"
@@ -119,8 +120,10 @@ Json describe_numbers(const ReportCase& c) {
   }
   for (const auto& [side, image] : {std::pair{"A", &c.a}, std::pair{"B", &c.b}})
     for (const auto& [key, value] : image->metadata)
-      if (key == "stokes:device" || key == "stokes:samples" || key == "stokes:seed" || key == "stokes:render_seconds")
+      if (key == "stokes:device" || key == "stokes:samples" || key == "stokes:seed")
         add(std::string(side) + ": " + key.substr(7), value);
+      else if (key == "stokes:render_seconds")
+        add(std::string(side) + ": rendered in", short_number(std::strtod(value.c_str(), nullptr)) + " s");
   return rows;
 }
 

@@ -78,7 +78,11 @@ function read() {
 // Both axes logarithmic; the dashed line has the slope -1/2 that independent samples give, through the points' middle.
 function plotConvergence() {
   const points = current.convergence.filter(p => p[1] > 0);
-  if (points.length < 2) return;
+  $("curve").style.display = points.length < 2 ? "none" : "";
+  if (points.length < 2) {
+    $("slope").textContent = "Not to be seen: B has as much noise as the difference. More samples in B, or a scene with less noise, show it.";
+    return;
+  }
   const canvas = $("curve"), ratio = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
   canvas.width = width * ratio; canvas.height = height * ratio;
   const g = canvas.getContext("2d");

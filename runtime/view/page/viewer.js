@@ -43,7 +43,7 @@ function showWaiting() {
   if (!waits) return;
   preparing = preparing || Date.now();
   const seconds = Math.round((Date.now() - preparing) / 1000);
-  $("waiting").textContent = `Preparing kernels${seconds > 1 ? `, ${clock(seconds)}` : ""}\nOnce for each kind of scene; the next time they are there.`;
+  $("waiting").textContent = `Preparing kernels${seconds > 1 ? ", " + (seconds < 60 ? seconds + " s" : clock(seconds)) : ""}\nOnce for each kind of scene; the next time they are there.`;
   clearTimeout(waitingTimer);
   waitingTimer = setTimeout(showWaiting, 1000);
 }
