@@ -2,7 +2,7 @@
 # Runs the device tests, a parity of small scenes and a comparison of bits on every OpenCL runtime that can be had on Debian 12: PoCL, Intel's CPU runtime,
 # Oclgrind (which also finds races and accesses out of bounds) and Mesa's Rusticl. What is missing is installed: Debian's packages if this is root,
 # Intel's runtime from PyPI into a folder.
-# Usage: tests/portability.sh BUILD_FOLDER [pocl] [intel] [oclgrind] [rusticl]     (default: all; INTEL_DIR=/tmp/stokes-intel)
+# Usage: tests/portability.sh BUILD_FOLDER [pocl] [intel] [oclgrind] [rusticl]     (default: all; INTEL_DIR=/tmp/stokes-intel, LIMIT=1800 seconds a program)
 # A runtime that cannot be had counts as a failure when it was asked for by name, and is named as skipped otherwise.
 set -u
 source_dir=$(cd "$(dirname "$0")/.." && pwd)
@@ -11,6 +11,7 @@ shift
 runtimes=${*:-pocl intel oclgrind rusticl}
 asked=$#
 intel_dir=${INTEL_DIR:-/tmp/stokes-intel}
+limit="timeout -k 10 ${LIMIT:-1800}"
 vendors=$(mktemp -d)
 trap 'rm -rf "$vendors"' EXIT
 export XDG_CACHE_HOME=$vendors/cache
@@ -19,8 +20,12 @@ skipped=
 
 # run NAME COMMAND...: runs it and remembers a failure.
 run() {
+  local begin=$SECONDS
   echo "== $1: ${*:2}"
-  "${@:2}" || { echo "== $1: FAILED ($?)"; failures=$((failures + 1)); }
+  if "${@:2}"; then echo "== $1: passed, $((SECONDS - begin)) s"; else
+    echo "== $1: FAILED ($?), $((SECONDS - begin)) s"
+    failures=$((failures + 1))
+  fi
 }
 
 missing() {
@@ -43,12 +48,12 @@ only() {
   export OCL_ICD_VENDORS=$vendors
 }
 
-device_tests() { "$build/tests/unit/test_device" --gtest_brief=1 --gtest_filter="${1:-*}"; }
+device_tests() { $limit "$build/tests/unit/test_device" --gtest_brief=1 --gtest_filter="${1:-*}"; }
 
 parity() {
   local scene
   for scene in "$@"; do
-    "$build/stokes" parity "$source_dir/scenes/$scene.json" --devices 0:0 --spp 64 --size 32x32 || return
+    $limit "$build/stokes" parity "$source_dir/scenes/$scene.json" --devices 0:0 --spp 64 --size 32x32 || return
   done
 }
 
@@ -56,7 +61,7 @@ parity() {
 pictures() {
   local scene
   for scene in jensen_box fog_box; do
-    "$build/stokes" render "$source_dir/scenes/$scene.json" --size 32x32 --spp 16 -q -o "$vendors/$scene.$1.exr" || return
+    $limit "$build/stokes" render "$source_dir/scenes/$scene.json" --size 32x32 --spp 16 -q -o "$vendors/$scene.$1.exr" || return
   done
 }
 
@@ -81,7 +86,7 @@ under_oclgrind() {
   local log
   log=$(mktemp)
   # Its interpreter does not know an intrinsic that LLVM's inliner leaves behind, so no passes run.
-  oclgrind --build-options -disable-llvm-passes --log "$log" --data-races "$@"
+  $limit oclgrind --build-options -disable-llvm-passes --log "$log" --data-races "$@"
   local status=$?
   if [ -s "$log" ]; then
     head -40 "$log"

@@ -27,7 +27,7 @@ rm -rf "$found"
 mkdir "$found"
 for which in leak thread; do sed -n "s/^$which: *//p" "$source_dir/tests/support/sanitizers.txt" > "$found/$which.suppressions"; done
 # A library that is preloaded (opencl_faults) may come before the sanitizer's own; its crashes are the supervisor's to see.
-export ASAN_OPTIONS=log_path=$found/log:verify_asan_link_order=0:handle_segv=0
+export ASAN_OPTIONS=log_path=$found/log:verify_asan_link_order=0:handle_segv=0:handle_sigbus=0
 export UBSAN_OPTIONS=print_stacktrace=1:log_path=$found/log
 export LSAN_OPTIONS=suppressions=$found/leak.suppressions:print_suppressions=0
 export TSAN_OPTIONS=log_path=$found/log:suppressions=$found/thread.suppressions:ignore_noninstrumented_modules=1
