@@ -8,6 +8,8 @@ an error, the same mutation of the scene as it is must be one too, as fast.
 Loading the program takes longer than most checks, so a process checks many scenes. What it takes bounds what each of them takes; when that is
 too much, or the exit code is another than 0 and 2, or a line is of no scene, each scene of the batch is checked by a process of its own.
 
+A scene that is sound but too large for the machine (20,000 hands) exits 4 with one line that says so; such are counted apart, and not as refused.
+
     malformed_scenes.py [--count N] [--seed N] [--scenes DIR] [--keep DIR] STOKES
 """
 import argparse
@@ -268,7 +270,8 @@ class Checker:
             return process.returncode, err.read().decode("utf-8", "replace"), usage.ru_utime + usage.ru_stime, usage.ru_maxrss
 
     def check(self, scenes):
-        """For each of `scenes` (bytes): "" when it is valid, its error line, or a list of what is wrong with how it was refused."""
+        """For each of `scenes` (bytes): "" when it is valid, None when it is too large for the machine, its error line, or a list of what is wrong with
+        how it was refused."""
         for i, data in enumerate(scenes):
             (self.folder / f"scene_{i}.json").write_bytes(data)
         return self.halve(range(len(scenes)))
@@ -304,6 +307,8 @@ class Checker:
         code, error, seconds, kibibytes = self.run([number])
         if code == 0:
             return ""
+        if code == 4 and re.fullmatch(r"[^\n]*error: [^\n]*out of memory: [^\n]+ needs [^\n]+\n", error) and kibibytes < KIBIBYTES:
+            return None
         return [f"exit code {code}, {seconds:.2f} s, {kibibytes / 1024:.0f} MiB: {error[:300]!r}"]
 
 
@@ -349,8 +354,8 @@ def main():
         first = 0
         while outcomes["refused"] + len(failures) < a.count:
             for i, path, kind, data, result in check_batch(checker, a.seed, paths, range(first, first + BATCH)):
-                if result == "":
-                    outcomes["valid"] += 1
+                if not result:
+                    outcomes["too large" if result is None else "valid"] += 1
                     continue
                 kinds[kind] += 1
                 if isinstance(result, str):
@@ -365,7 +370,7 @@ def main():
             first += BATCH
             if first % (10 * BATCH) == 0:
                 print(f"{first} mutations, {outcomes['refused']} refused", file=sys.stderr, flush=True)
-    print(f"{first} mutations of {len(paths)} scenes: {outcomes['valid']} stayed valid (exit 0), {outcomes['refused']} were refused "
+    print(f"{first} mutations of {len(paths)} scenes: {outcomes['valid']} stayed valid (exit 0), {outcomes['too large']} became too large (exit 4), {outcomes['refused']} were refused "
           f"(exit 2, one line; {outcomes['rootless']} of them about the whole file, whose pointer is empty), {len(failures)} failed")
     print(f"a process of up to {BATCH} scenes took at most {checker.seconds:.2f} s of CPU time and {checker.kibibytes / 1024:.0f} MiB")
     print("refused by kind: " + ", ".join(f"{k} {n}" for k, n in kinds.most_common()))

@@ -109,6 +109,21 @@ TEST(CompiledSphere, BecomesAnEllipsoidOtherwise) {
   EXPECT_NEAR(e.area, 2 * kPi * 2.25 * (1 + 2 / eccentricity * std::asin(eccentricity)), 1e-3);
 }
 
+TEST(CompiledSphere, KnowsTheAreaOfEllipsoids) {
+  const auto area = [](Vec3d axes) { return double(compiled::make_ellipsoid(scale(axes), 1, false).area); };
+  // Prolate and oblate spheroids have elementary areas.
+  const double e = std::sqrt(3.0) / 2;
+  EXPECT_NEAR(area({1, 1, 2}), 2 * kPi * (1 + 2 / e * std::asin(e)), 1e-5);
+  EXPECT_NEAR(area({2, 1, 2}), 2 * kPi * (4 + std::atanh(e) / e), 1e-5);
+  // The needle's and the disc's limits, a sphere but for a rounding, and nothing that is not finite between them.
+  EXPECT_NEAR(area({1, 1e-5, 1e-5}) / (kPi * kPi * 1e-5), 1, 1e-5);
+  EXPECT_NEAR(area({1, 3, 1e-9}), 2 * kPi * 3, 1e-5);
+  EXPECT_NEAR(area({1, 1, 1 + 1e-6}), 4 * kPi, 3e-5);
+  EXPECT_NEAR(area({1e-15, 2e-15, 3e-15}) * 1e30, area({1, 2, 3}), 1e-4);
+  // Three different axes, by a quadrature of the elliptic integral to eight digits.
+  EXPECT_NEAR(area({3, -1, 2}), 48.882151, 1e-4);
+}
+
 TEST(CompiledSphere, RefusesSingularTransformsAndFlipsForNegativeRadii) {
   EXPECT_NE(error_of(scene_of({sphere(lambertian(), scale({1, 1, 0}))})).find("invertible"), std::string::npos);
   EXPECT_NE(error_of(scene_of({sphere(lambertian(), {}, 0)})).find("radius"), std::string::npos);
