@@ -1,4 +1,4 @@
-// pbrt's conventions, directive by directive, as its documentation of the file format (pbrt.org/fileformat-v4) has them.
+// pbrt's conventions, directive by directive, as pbrt-v4's own reader (scene, parser, lights, parameters) has them.
 #include <numbers>
 
 #include "import_support.h"
