@@ -28,13 +28,13 @@ double Ear::operator()(Vec3d m) const {
   double d = ellipsoid(l, {5.5, 2, 0.2}, {16.5, 27, 3.8}, plate);
   d = smooth_min(d, ellipsoid(l, {-3, -1, -7}, {9, 19, 8}), 5);                    // root
   d = smooth_min(d, ellipsoid(l, {-2, -25, 1.4}, {7.4, 8.7, 3.9}, lobule), 5);
-  d = smooth_min(d, antihelix(l), 3.5);
-  d = smooth_min(d, crus(l), 2.5);
-  d = smooth_min(d, antitragus(l), 3.5);
+  d = antihelix.join(d, l, 3.5);
+  d = crus.join(d, l, 2.5);
+  d = antitragus.join(d, l, 3.5);
   d = carve(d, ellipsoid(l, {1.5, -5, 6}, {8.6, 10.5, 7.5}, concha), 2);
   d = carve(d, ellipsoid(l, {-4, -6, 2}, {4, 4.5, 8}), 2);                          // meatus
-  d = smooth_min(d, helix_wall(l), 3.5);
-  d = smooth_min(d, helix(l), 3.2);
+  d = helix_wall.join(d, l, 3.5);
+  d = helix.join(d, l, 3.2);
   return smooth_min(d, ellipsoid(l, {-8, -6.5, 4.4}, {3.4, 5.6, 3.0}, tragus), 3);
 }
 

@@ -17,13 +17,13 @@ double lid_edge(double u) { return -9.6 + 5.2 * u * u + u; }
 double Eyes::operator()(double d, Vec3d m) const {
   const double x = m.x, y = m.y, gate = smooth_step(55, 68, m.z);
   if (length_squared(m - Vec3d{33, -2, 76}) > 48 * 48) return d;
-  d = smooth_min(d, fold(m), 7);
+  d = fold.join(d, m, 7);
   d = smooth_min(d, ellipsoid(m, {kEyeX, -5, kEyeZ - 2}, {16.5, 13, 13.6}), 6);                           // globe under the lower lid
   // The upper lid lies over the globe and ends at the lashes: crisp there, soft under the brow.
   const double u = (x - kEyeX) / 16;
   const double lid = smooth_max(ellipsoid(m, {kEyeX, -1.5, kEyeZ}, {17, 13.2, 15.8}), (lid_edge(u) - y) * 0.86, 1.3);
   d = smooth_min(d, lid, 1.8 + 5 * smooth_step(-6, 5, y));
-  d = smooth_min(d, margin(m), 1.2);
+  d = margin.join(d, m, 1.2);
   d += 0.75 * bump(lash_line.distance(x, y), 2.2) * gate * smooth_step(15, 22, x);
   d += 1.1 * bump(crease.distance(x, y), 3.0) * gate * bump(x - kEyeX - 1, 23);
   return d + 0.6 * bump(lower_crease.distance(x, y), 6) * gate;

@@ -8,7 +8,7 @@ using namespace sdf;
 double Nose::operator()(double d, Vec3d p, Vec3d m) const {
   if (length_squared(p - Vec3d{0, -22, 88}) > 52 * 52) return d;  // farther than the nose and its blends reach
   d = smooth_min(d, ellipsoid(p, {0, -29, 80}, {17, 26, 18}), 12);  // pyramid
-  d = smooth_min(d, dorsum(p), 8);
+  d = dorsum.join(d, p, 8);
   const double lobule = smooth_min(ellipsoid(p, {0, -37, 104.5}, {10.5, 8.4, 10}), ellipsoid(m, {4.6, -37.2, 107.4}, {6.8, 6.9, 7.2}), 3);
   d = smooth_min(d, lobule, 6);
   d = smooth_min(d, ellipsoid(m, {15.8, -40.6, 95.5}, {6.6, 7.4, 11}, ala), 7);

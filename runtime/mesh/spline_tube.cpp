@@ -28,6 +28,18 @@ SplineTube::SplineTube(const std::vector<TubePoint>& control) {
     for (int s = 0; s < kSamples; s++) samples_.push_back(at(pieces_.back().position, static_cast<double>(s) / kSamples));
   }
   samples_.push_back(position(count - 1));
+  // The ball's middle is the samples'. Between closely spaced points the curve strays from them by far less than a millimetre.
+  for (const Vec3d& s : samples_) ball_center_ += s / static_cast<double>(samples_.size());
+  constexpr int kClose = 32;
+  for (const Piece& piece : pieces_)
+    for (int s = 0; s <= kClose; s++) {
+      const double t = static_cast<double>(s) / kClose;
+      ball_radius_ = std::max(ball_radius_, length(at(piece.position, t) - ball_center_) + at(piece.radius, t) + 1);
+    }
+}
+
+double SplineTube::join(double d, Vec3d p, double k) const {
+  return length(p - ball_center_) - ball_radius_ >= d + k ? d : smooth_min(d, (*this)(p), k);
 }
 
 double SplineTube::operator()(Vec3d p) const {

@@ -14,6 +14,8 @@ class SplineTube {
   SplineTube(std::initializer_list<TubePoint> control) : SplineTube(std::vector<TubePoint>(control)) {}
   explicit SplineTube(const std::vector<TubePoint>& control);
   double operator()(Vec3d p) const;
+  /// smooth_min(d, the tube at p, k), bit for bit, without the tube where a ball about it says that it adds nothing.
+  double join(double d, Vec3d p, double k) const;
 
  private:
   static constexpr int kSamples = 4;  // per piece
@@ -23,6 +25,8 @@ class SplineTube {
   };
   std::vector<Piece> pieces_;
   std::vector<Vec3d> samples_;
+  Vec3d ball_center_;  // of a ball that holds the tube
+  double ball_radius_ = 0;
 };
 
 }  // namespace stokes::sdf
