@@ -11,8 +11,8 @@ import time
 import bpy
 import numpy as np
 
+from answering import answer_seeds
 from cycles_scene import build
-from efficiency import efficiencies
 
 
 def main():
@@ -35,21 +35,14 @@ def main():
         bpy.data.images.remove(image)
         return took, pixels
 
-    def answer(value):
-        print(json.dumps(value), file=answers, flush=True)
-
     loading = min(render(1 << 20, 1)[0] for _ in range(3))
-    answer({"ready": bpy.app.version_string})
-    images, seconds = [], []
-    for line in sys.stdin:
-        if line.strip() == "noise":
-            median, rgb = efficiencies(np.array(images), float(np.median(seconds)))
-            answer({"efficiency_median": median, "efficiency_rgb": rgb})
-            continue
-        took, image = render(int(line), spp)
-        images.append(image)
-        seconds.append((took - loading) * spp / (spp - 1))
-        answer({"cpu_seconds": seconds[-1], "mean": image.mean((0, 1)).tolist()})
+
+    def render_alone(seed):
+        took, image = render(seed, spp)
+        alone = (took - loading) * spp / (spp - 1)
+        return alone, alone, image
+
+    answer_seeds(answers, {"ready": bpy.app.version_string}, render_alone)
     os.remove(picture)
     answers.flush()
     os._exit(0)  # Blender's own end can fail after the work is done

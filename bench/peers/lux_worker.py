@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 
-from efficiency import efficiencies
+from answering import answer_seeds
 
 POLL = 0.01
 
@@ -42,24 +42,15 @@ def main():
     import pyluxcore
     from lux_scene import build, settings
 
-    def answer(value):
-        print(json.dumps(value), file=answers, flush=True)
-
     pyluxcore.Init(lambda message: None)
     description = json.load(open(path))
     scene = build(description, size)
-    answer({"ready": pyluxcore.Version()})
-    images, seconds = [], []
-    for line in sys.stdin:
-        if line.strip() == "noise":
-            median, rgb = efficiencies(np.array(images), float(np.median(seconds)))
-            answer({"efficiency_median": median, "efficiency_rgb": rgb})
-            continue
-        took, samples, image = render(pyluxcore, scene, settings(description["integrator"], size, int(line), spp), size)
-        images.append(image)
-        seconds.append(took)
-        answer({"cpu_seconds": took * size * size * spp / samples, "mean": image.mean((0, 1)).tolist()})
-    answers.flush()
+
+    def render_seed(seed):
+        took, samples, image = render(pyluxcore, scene, settings(description["integrator"], size, seed, spp), size)
+        return took * size * size * spp / samples, took, image
+
+    answer_seeds(answers, {"ready": pyluxcore.Version()}, render_seed)
     os._exit(0)  # its end can fail after the work is done
 
 

@@ -9,7 +9,7 @@ import time
 import mitsuba as mi
 import numpy as np
 
-from efficiency import efficiencies
+from answering import answer_seeds
 from mitsuba_scene import mitsuba_scene
 
 XYZ_TO_SRGB = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]])
@@ -31,21 +31,12 @@ def main():
             dr.eval(image)
             dr.sync_thread()
         image = np.array(image, dtype=np.float64)
-        return time.process_time() - begin, image @ XYZ_TO_SRGB.T
+        took = time.process_time() - begin
+        return took, took, image @ XYZ_TO_SRGB.T
 
     if llvm:
         render(1 << 20)  # traces and compiles
-    print(json.dumps({"ready": mi.__version__, "threads": os.cpu_count()}), flush=True)
-    images, seconds = [], []
-    for line in sys.stdin:
-        if line.strip() == "noise":
-            median, rgb = efficiencies(np.array(images), float(np.median(seconds)))
-            print(json.dumps({"efficiency_median": median, "efficiency_rgb": rgb}), flush=True)
-            continue
-        took, image = render(int(line))
-        images.append(image)
-        seconds.append(took)
-        print(json.dumps({"cpu_seconds": took, "mean": image.mean((0, 1)).tolist()}), flush=True)
+    answer_seeds(sys.stdout, {"ready": mi.__version__, "threads": os.cpu_count()}, render)
 
 
 main()

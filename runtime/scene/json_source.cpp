@@ -127,10 +127,6 @@ void require_memory_for(std::uint64_t values, const std::string& file_name, cons
   throw SceneError(file_name, position_at(text, at), check.pointer(), plain_message(check.message, check.token));
 }
 
-}  // namespace
-
-namespace {
-
 // The spelling that `object` already uses for `key`, else `key` itself.
 std::string spelling_in(const Json& object, const std::string& key) {
   if (object.contains(key)) return key;

@@ -130,11 +130,9 @@ std::string file_key(const ReadContext& context, const std::string& path) {
 }
 
 std::string mesh_key(const ReadContext& context, const MeshRequest& request, const Affine& to_world) {
-  std::string key = request.path.empty() ? generator_key(context, request) : file_key(context, request.path);
+  const std::string key = request.path.empty() ? generator_key(context, request) : file_key(context, request.path);
   if (request.offset == 0) return key;
-  key += (request.by_distance_field ? " distance field " : " normals ") + show(request.offset);
-  for (const double number : to_world.m) key += " " + show(number);
-  return key;
+  return key + (request.by_distance_field ? " distance field" : " normals") + offset_key(request.offset, to_world);
 }
 
 /// Skin is several surfaces about one head, which is generated once.

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <optional>
 
+#include "scene/json_node.h"
+
 namespace stokes {
 namespace {
 
@@ -27,6 +29,12 @@ std::optional<MadeMesh> recall(const Remembered& remembered) {
 }
 
 }  // namespace
+
+std::string offset_key(double distance, const Affine& to_world) {
+  std::string key = " " + show(distance);
+  for (const double number : to_world.m) key += " " + show(number);
+  return key;
+}
 
 MadeMesh recent_mesh(const std::string& key, const std::shared_ptr<const MeshData>& source, const std::function<MadeMesh()>& make) {
   {

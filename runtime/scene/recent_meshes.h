@@ -18,6 +18,9 @@ struct MadeMesh {
   std::vector<std::pair<std::string, std::string>> warnings;     ///< the surface's key that each is about (empty: the surface), and its text
 };
 
+/// The part of a key that an offset by `distance` in world space depends on.
+std::string offset_key(double distance, const Affine& to_world);
+
 /// What `make` made before for this key and this very `source` (null where it was made of none), while all its parts are held by somebody; else
 /// what it makes now. Throws what `make` throws.
 MadeMesh recent_mesh(const std::string& key, const std::shared_ptr<const MeshData>& source, const std::function<MadeMesh()>& make);

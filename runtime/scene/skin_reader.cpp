@@ -72,13 +72,11 @@ Affine translated(Affine transform, Vec3d direction, double distance) {
 }
 
 std::shared_ptr<const MeshData> shell(const std::shared_ptr<const MeshData>& mesh, double distance, const Affine& to_world) {
-  std::string key = "skin " + show(distance);
-  for (const double number : to_world.m) key += " " + show(number);
   const auto make = [&] {
     std::vector<MeshData> parts = extract_materials(offset_surface(raw_mesh_of(welded(*mesh)), distance, to_world));
     return MadeMesh{{std::make_shared<MeshData>(std::move(parts[0]))}, {""}, {}};
   };
-  return recent_mesh(key, mesh, make).parts[0];
+  return recent_mesh("skin" + offset_key(distance, to_world), mesh, make).parts[0];
 }
 
 // The same shape `depth` scene units further to the inside.
