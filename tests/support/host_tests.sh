@@ -10,7 +10,7 @@ configure_and_build() {
   shift
   mkdir -p "$build" || return
   # shellcheck disable=SC2086
-  cmake -S "$source_dir" -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DSTOKES_BENCH=OFF -DCMAKE_BUILD_TYPE=Debug \
+  cmake -S "$source_dir" -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DSTOKES_BENCH=OFF -DSTOKES_PATIENCE=6 -DCMAKE_BUILD_TYPE=Debug \
     "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" "$@" ${CMAKE_OPTIONS:-} > "$build/configure.txt" 2>&1 || {
     cat "$build/configure.txt"
     return 1
@@ -20,7 +20,7 @@ configure_and_build() {
 
 # run_tests BUILD_FOLDER CTEST_ARGUMENTS...: those that are given, or else all but the long ones and a sample of those.
 run_tests() {
-  local ctest="ctest --test-dir $1 --parallel ${JOBS:-2} --output-on-failure --timeout 1800"
+  local ctest="ctest --test-dir $1 --parallel ${JOBS:-2} --output-on-failure"
   shift
   if [ $# -gt 0 ]; then
     $ctest "$@"
