@@ -30,7 +30,7 @@ const ImageCodec& load() {
   void* module = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   void* function = module ? dlsym(module, kImageCodecSymbol) : nullptr;
   if (!function) throw std::runtime_error("images cannot be read or written: " + std::string(dlerror()));
-  return reinterpret_cast<ImageCodecFunction>(function)();
+  return *reinterpret_cast<ImageCodecFunction>(function)();
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class ImageCodec {
 
 constexpr const char* kImageCodecModule = "libstokes_image_codec.so";
 constexpr const char* kImageCodecSymbol = "stokes_image_codec";
-using ImageCodecFunction = const ImageCodec& (*)();
+using ImageCodecFunction = const ImageCodec* (*)();
 
 /// The module, which the first call loads. Throws std::runtime_error where it cannot be.
 const ImageCodec& image_codec();

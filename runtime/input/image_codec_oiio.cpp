@@ -81,7 +81,7 @@ class OiioCodec : public ImageCodec {
 }  // namespace stokes
 
 /// ImageCodecFunction.
-extern "C" const stokes::ImageCodec& stokes_image_codec() {
+extern "C" const stokes::ImageCodec* stokes_image_codec() {
   static const stokes::OiioCodec codec;
-  return codec;
+  return &codec;
 }
