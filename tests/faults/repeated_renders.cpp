@@ -22,7 +22,8 @@ long resident() {
   return pages * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
-std::int64_t render(const char* path, const stokes::DeviceInfo& device) {
+// The sum of the film's words, which may wrap.
+std::uint64_t render(const char* path, const stokes::DeviceInfo& device) {
   stokes::CompileOptions options;
   options.bvh_width = stokes::default_bvh_width(device);
   const stokes::CompiledScene scene = stokes::compile_scene(stokes::read_scene(path), options);
@@ -30,8 +31,8 @@ std::int64_t render(const char* path, const stokes::DeviceInfo& device) {
   const stokes::layout::Scene& h = scene.header;
   stokes::Film film = stokes::make_film(16, 12, 0, 0, 8, 8, h.film_channels, 0, 0, 0, static_cast<double>(h.film_quantum), static_cast<double>(h.depth_quantum));
   renderer.render_samples(film, scene.seed, 0, 4, {});
-  std::int64_t sum = 0;
-  for (const std::int64_t word : film.words) sum += word;
+  std::uint64_t sum = 0;
+  for (const std::int64_t word : film.words) sum += static_cast<std::uint64_t>(word);
   return sum;
 }
 
@@ -42,9 +43,9 @@ int main(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 1000;
   const stokes::DeviceInfo device = stokes::choose_device("auto");
   long settled = 0;
-  std::int64_t first = 0;
+  std::uint64_t first = 0;
   for (int i = 1; i <= count; i++) {
-    const std::int64_t sum = render(argv[1], device);
+    const std::uint64_t sum = render(argv[1], device);
     if (i == 1) first = sum;
     if (sum != first) {
       std::printf("FAILED: render %d differs from the first\n", i);
