@@ -126,14 +126,15 @@ int run_unit(const DistributeOptions& o) {
   become_process(words);
 }
 
-/// Drives Dask by the Python program that this one carries.
-int run_driver(const DistributeOptions& o, const Job& job) {
+/// Drives Dask by the Python program that this one carries. There are never more workers than parts left for them.
+int run_driver(const DistributeOptions& o, const Job& job, int open) {
+  const int workers = std::min(o.workers, open);
   int threads = o.scene_options.threads;
-  if (threads == 0 && o.workers > 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / o.workers);
+  if (threads == 0 && workers > 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / workers);
   const nlohmann::json drive = {{"program", o.worker_program.empty() ? own_executable() : o.worker_program},
                                 {"folder", job.folder},
                                 {"threads", threads},
-                                {"workers", o.workers},
+                                {"workers", workers},
                                 {"scheduler", o.scheduler},
                                 {"quiet", o.quiet}};
   const char* chosen = std::getenv("STOKES_DASK_PYTHON");
@@ -185,9 +186,9 @@ int run_distribute(const DistributeOptions& o) {
                    job.folder.c_str(), job.parts.size());
     return kExitDone;
   }
-  const auto done = [&](const JobPart& part) { return examine_part(job, part).state == PartState::Done; };
-  if (!std::all_of(job.parts.begin(), job.parts.end(), done)) {
-    const int code = run_driver(o, job);
+  const auto is_open = [&](const JobPart& part) { return examine_part(job, part).state != PartState::Done; };
+  if (const auto open = std::count_if(job.parts.begin(), job.parts.end(), is_open); open > 0) {
+    const int code = run_driver(o, job, static_cast<int>(open));
     if (code != kExitDone) return code > 128 ? kExitInternal : code;
   }
   std::vector<std::string> words = merge_arguments(job, job.output);

@@ -81,6 +81,19 @@ std::string without_name(const std::string& message, const std::string& file) {
   return message.compare(0, prefix.size(), prefix) == 0 ? message.substr(prefix.size()) : message;
 }
 
+/// Of a manifest's parts: the first thing that is wrong with them, or empty. They cover the samples one after the other, and lie in the folder.
+std::string fault_of(const Job& job, const std::vector<std::string>& files) {
+  int next = 0;
+  for (std::size_t i = 0; i < files.size(); i++) {
+    const JobPart& part = job.parts[i];
+    if (part.begin != next || part.end <= part.begin) return "part " + std::to_string(i) + " has the samples " + range_text(part.begin, part.end) + " where " + std::to_string(next) + " is next";
+    if (files[i].empty() || fs::path(files[i]).filename() != files[i]) return "part " + std::to_string(i) + " does not lie in the folder";
+    next = part.end;
+  }
+  if (next != job.wanted.samples_total) return "its parts end at sample " + std::to_string(next) + " of " + std::to_string(job.wanted.samples_total);
+  return {};
+}
+
 bool is_plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::string("_-./:,+@%").find(c) != std::string::npos; }
 
 }  // namespace
@@ -132,9 +145,13 @@ Job read_job(const std::string& folder) {
     job.wanted = wanted_from_json(j.at("wanted"));
     job.output = j.at("output");
     job.merge_options = j.at("merge").get<std::vector<std::string>>();
-    for (const Json& part : j.at("parts"))
-      job.parts.push_back({part.at("samples").at(0), part.at("samples").at(1), (fs::path(folder) / part.at("file").get<std::string>()).string()});
+    std::vector<std::string> files;
+    for (const Json& part : j.at("parts")) {
+      files.push_back(part.at("file"));
+      job.parts.push_back({part.at("samples").at(0), part.at("samples").at(1), (fs::path(folder) / files.back()).string()});
+    }
     if (job.parts.empty()) throw InputError(path + ": is damaged: it has no parts");
+    if (const std::string fault = fault_of(job, files); !fault.empty()) throw InputError(path + ": is damaged: " + fault);
     return job;
   } catch (const Json::exception& e) {
     throw InputError(path + ": is damaged: " + e.what());

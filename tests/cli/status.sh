@@ -73,6 +73,20 @@ says err.txt 'nowhere: is no job folder'
 printf '{"stokes_job": 1}' >c/job.json
 expect 2 "$STOKES" status c
 says err.txt 'job.json: is damaged'
+# A manifest whose parts do not make up the render, or lie elsewhere.
+broken() {
+  sed "$1" "my job/job.json" >c/job.json
+  expect 2 "$STOKES" status c
+  says err.txt "job.json: is damaged: $2"
+  expect 2 "$STOKES" distribute --dir c --unit 0 -q
+}
+broken 's/"samples": 12,/"samples": 13,/' 'its parts end at sample 12 of 13'
+tr -d '\n' <"my job/job.json" >flat.json
+cp flat.json "my job/job.json"
+broken 's/\[ *3, *6 *\]/[ 4, 6 ]/' 'part 1 has the samples 4:6 where 3 is next'
+broken 's/\[ *3, *6 *\]/[ 3, 3 ]/' 'part 1 has the samples 3:3 where 3 is next'
+broken 's/\[ *3, *6 *\]/[ 3, 1e300 ]/' 'part 1 has the samples'
+broken 's|"part-0000003|"../part-0000003|' 'part 1 does not lie in the folder'
 expect 64 unit 4
 expect 64 "$STOKES" distribute "$small" -o out.exr
 expect 64 "$STOKES" distribute "$small" -o out.exr --scheduler localhost
@@ -86,4 +100,10 @@ chmod +x bare
 expect 3 env STOKES_DASK_PYTHON="$WORK/bare" "$STOKES" distribute "$small" --device reference -q -o w.exr --workers 1
 says err.txt "pip install distributed"
 [ "$(wc -l <err.txt)" -eq 1 ] || fail 'the error is more than a line'
+
+# Workers beyond the parts that are left would have nothing to do.
+printf '#!/bin/sh\nshift 2\nprintf "%%s\\n" "$1" >asked.json\nexit 3\n' >python
+chmod +x python
+expect 3 env STOKES_DASK_PYTHON="$WORK/python" "$STOKES" distribute "$small" --device reference -q -o few.exr --workers 1000 --spp 3
+says asked.json '"workers":3'
 finish
