@@ -12,7 +12,6 @@ command -v gcovr > /dev/null || { echo 'gcovr is missing: apt-get install gcovr'
 status=0
 if [ "${1:-}" != --report ]; then
   configure_and_build "$build" -DSTOKES_COVERAGE=ON || exit 1
-  find "$build" -name '*.gcda' -delete
   run_tests "$build" "$@"
   status=$?
 fi

@@ -2,10 +2,14 @@
 #include "distribute/job_folder.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "image/error.h"
 #include "image/replace_file.h"
@@ -47,16 +51,27 @@ Json wanted_to_json(const FilmRecord& r) {
   return j;
 }
 
+/// Into a field of the record. Throws std::range_error for a number that is no integer or too large for it, which the library would convert somehow.
+template <class T>
+void read_value(const Json& value, T& field) {
+  if constexpr (std::is_integral_v<T>) {
+    const bool fits = value.is_number_unsigned() ? std::in_range<T>(value.get<std::uint64_t>())
+                                                 : value.is_number_integer() && std::in_range<T>(value.get<std::int64_t>());
+    if (!fits) throw std::range_error(value.dump().substr(0, 40) + " stands where an integer is expected");
+  }
+  value.get_to(field);
+}
+
 FilmRecord wanted_from_json(const Json& j) {
   FilmRecord r;
   for_each_field(r, [&](const char* name, auto& first, auto&... rest) {
     const Json& value = j.at(name);
     if constexpr (sizeof...(rest) == 0) {
-      value.get_to(first);
+      read_value(value, first);
     } else {
       std::size_t i = 0;
-      value.at(i++).get_to(first);
-      (value.at(i++).get_to(rest), ...);
+      read_value(value.at(i++), first);
+      (read_value(value.at(i++), rest), ...);
     }
   });
   return r;
@@ -148,12 +163,17 @@ Job read_job(const std::string& folder) {
     std::vector<std::string> files;
     for (const Json& part : j.at("parts")) {
       files.push_back(part.at("file"));
-      job.parts.push_back({part.at("samples").at(0), part.at("samples").at(1), (fs::path(folder) / files.back()).string()});
+      JobPart& read = job.parts.emplace_back();
+      read_value(part.at("samples").at(0), read.begin);
+      read_value(part.at("samples").at(1), read.end);
+      read.file = (fs::path(folder) / files.back()).string();
     }
     if (job.parts.empty()) throw InputError(path + ": is damaged: it has no parts");
     if (const std::string fault = fault_of(job, files); !fault.empty()) throw InputError(path + ": is damaged: " + fault);
     return job;
   } catch (const Json::exception& e) {
+    throw InputError(path + ": is damaged: " + e.what());
+  } catch (const std::range_error& e) {
     throw InputError(path + ": is damaged: " + e.what());
   }
 }

@@ -85,7 +85,7 @@ tr -d '\n' <"my job/job.json" >flat.json
 cp flat.json "my job/job.json"
 broken 's/\[ *3, *6 *\]/[ 4, 6 ]/' 'part 1 has the samples 4:6 where 3 is next'
 broken 's/\[ *3, *6 *\]/[ 3, 3 ]/' 'part 1 has the samples 3:3 where 3 is next'
-broken 's/\[ *3, *6 *\]/[ 3, 1e300 ]/' 'part 1 has the samples'
+broken 's/\[ *3, *6 *\]/[ 3, 1e300 ]/' '1e.300 stands where an integer is expected'
 broken 's|"part-0000003|"../part-0000003|' 'part 1 does not lie in the folder'
 expect 64 unit 4
 expect 64 "$STOKES" distribute "$small" -o out.exr

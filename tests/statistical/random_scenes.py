@@ -9,9 +9,12 @@ import argparse
 import json
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
+
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
 
 class Draw:
@@ -43,6 +46,12 @@ class Draw:
             lambda: {"type": "gaussian", "mean": self.u(330, 640), "stddev": self.u(10, 60), "value": round(scale * 0.02, 5)},
         ])()
 
+    def dyes(self, count):
+        found = [self.dye() for _ in range(count)]
+        for dye in found:
+            dye["absorption"]["value"] = round(dye["absorption"]["value"] / count, 4)
+        return found
+
     def dye(self):
         peak = self.u(340, 500)
         return {"absorption": {"type": "gaussian", "mean": peak, "stddev": self.u(15, 40), "value": self.u(0.3, 0.9)},
@@ -50,25 +59,44 @@ class Draw:
                 "yield": self.u(0.3, 1), "yield_type": self.r.choice(["photon", "energy"]), "concentration": self.u(0.2, 1)}
 
     def texture(self):
-        return {"type": "checker", "even": self.reflectance(), "odd": self.reflectance(), "scale": self.u(0.05, 0.3)}
+        t = self.r.choice([
+            lambda: {"type": "checker", "even": self.reflectance(), "odd": self.reflectance(), "scale": self.u(0.05, 0.3)},
+            lambda: {"type": "marble", "base": self.reflectance(), "veins": self.reflectance(), "scale": self.u(1, 6)},
+            lambda: {"type": "image", "filename": "textures/uv_grid.png", "raw": self.chance(0.3), "scale": self.u(0.3, 0.9),
+                     "wrap": self.r.choice(["repeat", "clamp"]), "filter": self.r.choice(["bilinear", "nearest"])},
+            lambda: {"type": "wireframe", "base": self.reflectance(), "wire": self.reflectance(), "thickness": self.u(0.02, 0.1)},
+        ])()
+        if self.chance(0.3):
+            t["transform"] = self.place()
+        return t
 
     def ior(self):
-        return self.r.choice([lambda: self.u(1.1, 1.9), lambda: {"type": "cauchy", "A": self.u(1.3, 1.6), "B": self.u(0.002, 0.01)}])()
+        return self.r.choice([lambda: self.u(1.1, 1.9), lambda: {"type": "cauchy", "A": self.u(1.3, 1.6), "B": self.u(0.002, 0.01)},
+                              lambda: {"type": "sellmeier", "B": [1.03961212, 0.231792344, 1.01046945], "C": [0.00600069867, 0.0200179144, 103.560653]}])()
+
+    def mask(self):
+        return self.r.choice([
+            lambda: {"type": "checker", "even": 0, "odd": self.u(0.3, 1), "scale": self.u(0.05, 0.3)},
+            lambda: {"type": "region", "shapes": [{"sphere": [self.u(-0.6, 0.6) for _ in range(3)], "radius": self.u(0.2, 0.6)},
+                                                  {"box": [[-0.3, -1, -0.3], [self.u(0, 1), 0, 1]]}]},
+            lambda: {"type": "image", "filename": "textures/uv_grid.png", "raw": True},
+        ])()
 
     def opaque(self, depth=0):
         kinds = [
-            lambda: {"type": "lambertian", "albedo": self.texture() if self.chance(0.25) else self.reflectance()},
+            lambda: {"type": "lambertian", "albedo": self.texture() if self.chance(0.5) else self.reflectance()},
             lambda: {"type": "metal", "albedo": self.reflectance(0.95), "roughness": self.r.choice([0, self.u(0, 0.6)])},
             lambda: {"type": "conductor", "eta": self.u(0.1, 1.5), "k": self.u(1, 5), "alpha": self.u(0.05, 0.6)},
             lambda: {"type": self.r.choice(["phong", "blinn_phong"]), "albedo": self.reflectance(), "exponent": self.u(2, 80)},
-            lambda: {"type": "diffuse_fluorescent", "albedo": self.reflectance(0.4), "dyes": [self.dye() for _ in range(self.r.choice([1, 1, 2]))]},
+            lambda: {"type": "diffuse_fluorescent", "albedo": self.reflectance(0.4), "dyes": self.dyes(self.r.choice([1, 1, 2]))},
+            lambda: {"type": "reradiation", "filename": "spectra/model_reradiation.csv"},
         ]
         if depth == 0:
             kinds += [
                 lambda: {"type": "blend", "a": self.opaque(1), "b": self.opaque(1),
                          "amount": self.r.choice([self.u(0, 1), {"type": "fresnel", "ior": self.u(1.2, 2)}])},
                 lambda: {"type": "painted", "base": self.opaque(1), "paint": self.opaque(1),
-                         "mask": {"type": "checker", "even": 0, "odd": self.u(0.3, 1), "scale": self.u(0.05, 0.3)}},
+                         "mask": self.mask()},
             ]
         return self.r.choice(kinds)()
 
@@ -78,6 +106,10 @@ class Draw:
             m["sigma_s"], m["sigma_a"] = self.coefficient(thickness), self.coefficient(0.4 * thickness)
         else:
             m["sigma_t"], m["albedo"] = self.coefficient(thickness), self.reflectance(0.98)
+        if self.chance(0.15):
+            dye = self.dye()
+            dye["absorption"]["value"] = self.u(0.1 * thickness, thickness)
+            m["dyes"] = [{key: dye[key] for key in ("absorption", "emission", "yield")}]
         return m
 
     def coefficient(self, size):
@@ -98,18 +130,29 @@ class Draw:
     def thing(self, around):
         """A closed body or a leaf of two sides, somewhere in the room."""
         s = {"transform": self.place()}
-        kind = self.r.choice(["sphere", "sphere", "quad", "triangle", "head"] if self.chance(0.15) else ["sphere", "sphere", "quad", "triangle"])
+        if self.chance(0.1):
+            return {"type": "group", "transform": [{"scale": self.u(0.6, 1)}, {"rotate": [self.u(0, 360), 0, 1, 0]}], "surfaces": [self.thing(around) for _ in range(2)]}
+        kind = self.r.choice(["sphere", "sphere", "quad", "triangle", "mesh"] + ["head"] * self.chance(0.15))
         if kind == "head":
             s = {"type": "mesh", "generator": self.r.choice(["head", "hand"]), "resolution": 8,
                  "transform": [{"scale": 0.004}, {"translate": [self.u(-0.5, 0.5), self.u(-0.3, 0.3), self.u(-0.5, 0.5)]}]}
         elif kind == "sphere":
             s.update(type="sphere", radius=self.u(0.15, 0.4))
+        elif kind == "mesh":
+            s["transform"].insert(0, {"scale": self.u(0.15, 0.4)})
+            s.update(type="mesh", filename="meshes/icosahedron.obj")
+            if self.chance(0.4):
+                s["offset"] = self.u(-0.03, 0.05)
         elif kind == "quad":
             s.update(type="quad", size=[self.u(0.2, 0.8), self.u(0.2, 0.8)])
         else:
             s.update(type="triangle", v0=[-0.3, -0.2, 0], v1=[self.u(0.2, 0.5), -0.2, 0.1], v2=[0, self.u(0.2, 0.5), -0.1])
+            if self.chance(0.5):
+                s["normals"] = [[self.u(-0.4, 0.4), self.u(-0.4, 0.4), 1] for _ in range(3)]
+            if self.chance(0.5):
+                s["uvs"] = [[0, 0], [1, self.u(-0.5, 0.5)], [self.u(0, 1), 1]]
         s["outside"] = around
-        closed = kind in ("sphere", "head")
+        closed = kind in ("sphere", "mesh", "head")
         s["inside"] = around
         if closed and self.chance(0.5):
             s["inside"] = "filling" if self.chance(0.7) else "vacuum"
@@ -151,15 +194,18 @@ class Draw:
         if self.chance(0.1):
             camera = {"type": "orthographic", "height": 2.2, "transform": camera["transform"], "resolution": [32, 32]}
         surfaces = list(self.room(around)) + list(self.lights(around)) + [self.thing(around) for _ in range(self.r.randint(1, 5))]
-        fluorescent = "diffuse_fluorescent" in json.dumps(surfaces)
+        media = [dict(self.medium(1.2), name="fog"), dict(self.medium(8), name="filling")]
+        fluorescent = any(word in json.dumps([surfaces, media]) for word in ("dyes", "reradiation"))
         integrator = {"type": self.r.choice(["path tracer mis", "path tracer mis", "path tracer nee", "path tracer mats", "path tracer volumetric mis", "fluorescent mis"]),
-                      "max bounces": self.r.choice([1, 2, 5, 12, 64]), "russian roulette": self.chance(0.5), "wavelengths per path": self.r.choice([1, 4, 4, 8])}
+                      "max bounces": self.r.choice([1, 2, 5, 12, 64]), "russian roulette": self.chance(0.5), "wavelengths per path": self.r.choice([1, 4, 4, 8]), "equiangular": self.chance(0.7)}
         if self.chance(0.15) and not fluorescent:
             integrator["mode"] = "rgb"
         scene = {"camera": camera, "sampler": {"type": "independent", "samples": 256, "seed": self.r.randrange(1000)}, "integrator": integrator,
-                 "media": [dict(self.medium(1.2), name="fog"), dict(self.medium(8), name="filling")]}
+                 "media": media}
         if self.chance(0.5):
-            scene["background"] = self.emission(self.u(0.05, 0.8))
+            scene["background"] = self.r.choice([
+                lambda: self.emission(self.u(0.05, 0.8)),
+                lambda: {"type": "environment", "filename": "textures/sky.hdr", "rotate": self.u(0, 360), "scale": self.u(0.1, 1)}])()
         if around == "fog":
             camera["medium"] = "fog"
         scene["surfaces"] = surfaces
@@ -178,9 +224,12 @@ def main():
     o = p.parse_args()
     alpha = 0.01 / o.count
     findings = 0
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(o.keep or temporary)
+        for files in ("textures", "spectra", "meshes"):
+            shutil.copytree(SCENES / files, folder / files, dirs_exist_ok=True)
         for i in range(o.seed, o.seed + o.count):
-            path = pathlib.Path(o.keep or folder) / f"random_{i}.json"
+            path = folder / f"random_{i}.json"
             path.write_text(json.dumps(Draw(i).scene(), indent=1))
             try:
                 run = subprocess.run([o.stokes, "parity", path, "--spp", str(o.spp), "--alpha", str(alpha), *o.options], capture_output=True, text=True, timeout=o.timeout)

@@ -4,7 +4,7 @@
 long_tests='^(opencl_truth|planted_bugs|scene_parity|parity_uniform|reference_truth|lanes):'
 stride=${STRIDE:-12}
 
-# configure_and_build BUILD_FOLDER OPTIONS...: clang's, whose instrumented code is made in half the time of GCC's.
+# configure_and_build BUILD_FOLDER OPTIONS...: clang's, whose instrumented code is made in half the time of GCC's. Counts of an earlier build go.
 configure_and_build() {
   local build=$1
   shift
@@ -15,6 +15,7 @@ configure_and_build() {
     cat "$build/configure.txt"
     return 1
   }
+  find "$build" -name '*.gcda' -delete
   ninja -C "$build" -j "${JOBS:-2}" --quiet
 }
 
