@@ -14,6 +14,9 @@ Affine look_at_of(Vec3d origin, Vec3d target, Vec3d up);
 /// Row by row; the last row must be 0 0 0 1 (false otherwise).
 bool matrix_of(const std::vector<double>& m, Affine& out);
 
+/// Normals at the corners of a mesh that has none, as Mitsuba makes them: sums of the adjacent faces', weighted by their angles in the world.
+void give_smooth_normals(ImportedMesh& mesh, const Affine& to_world);
+
 /// {"matrix": ...}, or null for the identity.
 ImportJson transform_json(const Affine& a);
 

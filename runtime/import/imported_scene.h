@@ -23,11 +23,16 @@ struct ImportedMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
+/// The whole of a file, unpacked where it is packed by gzip. Throws std::runtime_error.
+std::string read_text_file(const std::string& path);
+
 /// The mesh as OBJ text.
 std::string obj_text(const ImportedMesh& mesh);
 
-/// Reads a PLY file (ascii, or binary of either byte order); polygons become fans. Throws std::runtime_error.
+/// Reads a PLY file (ascii, or binary of either byte order, also packed by gzip); polygons become fans. Throws std::runtime_error.
 ImportedMesh read_ply(const std::string& path);
+/// Reads an OBJ file: a position of its own for each combination of position, uv and normal. Throws std::runtime_error.
+ImportedMesh read_obj_mesh(const std::string& path);
 
 using ImportJson = nlohmann::ordered_json;
 
@@ -52,6 +57,8 @@ struct ImportTarget {
 
 /// `path`, named in a file of `source_folder`, as a file of the target's folder would name it.
 std::string relative_file(const ImportTarget& target, const std::string& source_folder, const std::string& path);
+/// Whether an image stands somewhere in a material.
+bool has_image(const ImportJson& material);
 
 /// Where both others' films begin and end, in nm; and what is said of an index whose samples do not reach that far.
 constexpr double kFilmBegin = 360, kFilmEnd = 780;

@@ -1,17 +1,22 @@
-// Meshes of the importers: PLY files in, OBJ text out. Knows nothing of scenes.
+// Files of the importers: text packed or not, PLY files in, OBJ text out. Knows nothing of scenes.
+#include <zlib.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "import/imported_scene.h"
 
 namespace stokes {
 namespace {
+
+constexpr double kMostVertices = 2e9;
+constexpr std::size_t kMostBytes = std::size_t{1} << 32;  // of a file when unpacked
 
 struct Property {
   std::string name, type, count_type;  // count_type: of a list
@@ -49,14 +54,11 @@ double decode(const std::string& type, const unsigned char* b) {
 
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : file_(path, std::ios::binary) {
-    if (!file_ || std::filesystem::is_directory(path)) throw std::runtime_error("it cannot be read");
-    read_header();
-  }
+  explicit PlyReader(const std::string& path) : file_(read_text_file(path)) { read_header(); }
 
   ImportedMesh read() {
     for (const Element& element : elements_)
-      for (std::size_t i = 0; i < element.count; i++) read_row(element);
+      for (std::size_t i = 0; i < element.count && !element.properties.empty(); i++) read_row(element);
     for (const auto& t : mesh_.triangles)
       for (const int index : t)
         if (index < 0 || static_cast<std::size_t>(index) >= mesh_.positions.size()) throw std::runtime_error("a face refers to vertex " + std::to_string(index) + ", which is not there");
@@ -116,7 +118,10 @@ class PlyReader {
         const double count = number(p.count_type);
         if (count < 0 || count > 1e6) throw std::runtime_error("a face has " + std::to_string(count) + " corners");
         std::vector<int> corners;
-        for (int i = 0; i < count; i++) corners.push_back(static_cast<int>(number(p.type)));
+        for (int i = 0; i < count; i++) {
+          const double corner = number(p.type);
+          corners.push_back(std::abs(corner) <= kMostVertices ? static_cast<int>(corner) : -1);
+        }
         const bool face = element.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
         for (std::size_t i = 2; face && i < corners.size(); i++) mesh_.triangles.push_back({corners[0], corners[i - 1], corners[i]});
         continue;
@@ -134,13 +139,31 @@ class PlyReader {
     if (has_uv) mesh_.uvs.push_back({uv[0], uv[1]});
   }
 
-  std::ifstream file_;
+  std::istringstream file_;
   std::string format_;
   std::vector<Element> elements_;
   ImportedMesh mesh_;
 };
 
 }  // namespace
+
+std::string read_text_file(const std::string& path) {
+  const std::unique_ptr<gzFile_s, decltype(&gzclose)> file(std::filesystem::is_directory(path) ? nullptr : gzopen(path.c_str(), "rb"), &gzclose);
+  if (!file) throw std::runtime_error("it cannot be read");
+  std::string text;
+  std::vector<char> buffer(1 << 18);
+  int count = 0;
+  while ((count = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (text.size() > kMostBytes) throw std::runtime_error("it is larger than 4 GiB");
+  }
+  int code = Z_OK;
+  gzerror(file.get(), &code);
+  if (count < 0 || code == Z_BUF_ERROR) throw std::runtime_error("it is packed, and damaged");
+  return text;
+}
+
+bool has_image(const ImportJson& material) { return material.dump().find("\"image\"") != std::string::npos; }
 
 ImportedMesh read_ply(const std::string& path) { return PlyReader(path).read(); }
 

@@ -1,14 +1,11 @@
-// Mitsuba's spectra, textures, BSDFs and media to ours.
-#include <algorithm>
-#include <cmath>
+// Mitsuba's BSDFs and media to ours.
 #include <cstring>
 
 #include "import/mitsuba_import.h"
+#include "scene/csv.h"
 
 namespace stokes {
 namespace {
-
-double linear(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 // Mitsuba's names of transparent media.
 std::optional<double> named_index(const std::string& name) {
@@ -24,90 +21,6 @@ std::optional<double> named_index(const std::string& name) {
 
 }  // namespace
 
-pugi::xml_node MitsubaImport::follow(const Node& reference) const {
-  if (std::strcmp(reference.name(), "ref") != 0) return reference;
-  const std::string id = xml_.attribute(reference, "id");
-  const auto it = by_id_.find(id);
-  if (it == by_id_.end()) xml_.fail(reference, "nothing has the id \"" + id + "\"");
-  return it->second;
-}
-
-ImportJson MitsubaImport::texture_of(const Node& texture) {
-  xml_.use(texture);
-  const std::string type = texture.attribute("type").value();
-  if (type == "bitmap") {
-    ImportJson j = {{"type", "image"}, {"filename", relative_file(target_, folder_, xml_.text(texture, "filename", ""))}};
-    if (xml_.number(texture, "raw", 0) != 0) j["raw"] = true;
-    if (xml_.text(texture, "filter_type", "bilinear") == "nearest") j["filter"] = "nearest";
-    if (xml_.text(texture, "wrap_mode", "repeat") == "clamp") j["wrap"] = "clamp";
-    return j;
-  }
-  if (type == "checkerboard") {
-    note(texture, "a checkerboard by uv has no counterpart here: color0 is taken everywhere");
-    return spectrum_child(texture, "color0", Role::Reflectance, 0.4);
-  }
-  note(texture, "a texture of type \"" + type + "\" has no counterpart here: grey 0.5 is taken");
-  return 0.5;
-}
-
-ImportJson MitsubaImport::spectrum_of(const Node& given, Role role) {
-  const Node node = follow(given);
-  xml_.use(node);
-  const std::string tag = node.name(), type = node.attribute("type").value(), value = xml_.attribute(node, "value");
-  if (tag == "texture") return texture_of(node);
-  if (tag == "rgb" && value.starts_with("#") && value.size() == 7) {
-    ImportJson rgb = ImportJson::array();
-    for (std::size_t i = 1; i < 7; i += 2) rgb.push_back(linear(std::stoi(value.substr(i, 2), nullptr, 16) / 255.0));
-    return rgb;
-  }
-  if (tag == "rgb") {
-    const std::vector<double> v = xml_.numbers(node, value);
-    if (v.size() == 1) return ImportJson::array({v[0], v[0], v[0]});
-    if (v.size() != 3) xml_.fail(node, "expected three numbers, not \"" + value + "\"");
-    return ImportJson::array({v[0], v[1], v[2]});
-  }
-  if (tag == "spectrum" && (type == "d65" || type == "uniform"))
-    return scaled(type == "d65" ? ImportJson(1.0) : ImportJson{{"type", "constant"}, {"value", xml_.number(node, "value", 1)}}, xml_.number(node, "scale", 1));
-  if (tag == "spectrum" && type == "blackbody") {
-    note(node, "a blackbody is normalised to a luminance of 1 here, and in W m^-2 sr^-1 nm^-1 there: set its \"scale\"");
-    return {{"type", "blackbody"}, {"temperature", xml_.number(node, "temperature", 5000)}, {"scale", xml_.number(node, "scale", 1)}};
-  }
-  if (tag == "spectrum" && !xml_.attribute(node, "filename").empty())
-    return {{"type", "file"}, {"filename", relative_file(target_, folder_, xml_.attribute(node, "filename"))}};
-  if (tag == "spectrum" && value.find(':') != std::string::npos) {
-    std::string flat = value;
-    std::replace(flat.begin(), flat.end(), ':', ' ');
-    const std::vector<double> v = xml_.numbers(node, flat);
-    ImportJson j = {{"type", "sampled"}, {"wavelengths", ImportJson::array()}, {"values", ImportJson::array()}};
-    for (std::size_t i = 0; i + 1 < v.size(); i += 2) j["wavelengths"].push_back(v[i]), j["values"].push_back(v[i + 1]);
-    // Mitsuba's curves are 0 outside their samples; an index must not be.
-    if (role != Role::Index) j["extrapolate"] = "zero";
-    else if (v.empty() || v.front() > kFilmBegin || v[v.size() - 2] < kFilmEnd) note(node, kHeld);
-    return j;
-  }
-  if (tag == "float" || tag == "integer" || (tag == "spectrum" && type.empty())) {
-    const std::vector<double> v = xml_.numbers(node, value);
-    // A <spectrum> of one number is the same at every wavelength, also as an emission; a <float> is D65-shaped there, as our numbers are.
-    if (v.size() == 1 && tag == "spectrum" && role == Role::Emission) return {{"type", "constant"}, {"value", v[0]}};
-    if (v.size() == 1) return v[0];
-  }
-  note(node, "this spectrum is not understood: " + std::string(role == Role::Emission ? "1" : "0.5") + " is taken");
-  return role == Role::Emission ? 1.0 : 0.5;
-}
-
-ImportJson MitsubaImport::spectrum_child(const Node& node, const char* name, Role role, const ImportJson& fallback) {
-  const Node c = xml_.child(node, name);
-  if (!c) return fallback;
-  ImportJson spectrum = spectrum_of(c, role);
-  if (role == Role::Reflectance && spectrum.is_array())
-    for (ImportJson& component : spectrum)
-      if (component.get<double>() > 1) {
-        note(c, "a reflectance above 1 is cut to 1");
-        component = 1.0;
-      }
-  return spectrum;
-}
-
 // A factor that our materials do not have: only 1 can be kept.
 void MitsubaImport::expect_one(const Node& bsdf, const char* name) {
   const Node c = xml_.child(bsdf, name);
@@ -120,9 +33,9 @@ double MitsubaImport::index_of(const Node& bsdf, const char* name, const char* f
   const Node c = xml_.child(bsdf, name);
   const std::string value = c ? xml_.attribute(c, "value") : fallback;
   if (const auto index = named_index(value)) return *index;
-  const std::vector<double> number = xml_.numbers(c, value);
-  if (number.size() != 1) xml_.fail(c, "no index of refraction");
-  return number[0];
+  const auto number = parse_number(value);
+  if (!number || !(*number > 0)) xml_.fail(c, "\"" + value + "\" is neither an index of refraction nor a name that Mitsuba has for one");
+  return *number;
 }
 
 double MitsubaImport::alpha_of(const Node& bsdf) {
@@ -190,8 +103,15 @@ ImportJson MitsubaImport::material_of(const Node& given) {
     note(bsdf, "a BSDF of type \"" + type + "\" has no counterpart here: what it lies on is taken");
     return material_of(inner[0]);
   }
-  note(bsdf, "a BSDF of type \"" + type + "\" has no counterpart here: a matte grey is taken");
-  return {{"type", "lambertian"}, {"albedo", 0.5}};
+  return other_material_of(bsdf, type);
+}
+
+// What is left of a material without a counterpart: its diffuse colour.
+ImportJson MitsubaImport::other_material_of(const Node& bsdf, const std::string& type) {
+  const char* colour = type == "principled" || type == "principledthin" ? "base_color" : "diffuse_reflectance";
+  const bool has_colour = bsdf.find_child_by_attribute("name", colour);
+  note(bsdf, "a BSDF of type \"" + type + "\" has no counterpart here: a matte " + (has_colour ? std::string("one of its ") + colour : "grey") + " is taken");
+  return {{"type", "lambertian"}, {"albedo", spectrum_child(bsdf, colour, Role::Reflectance, 0.5)}};
 }
 
 ImportJson MitsubaImport::shape_material(const Node& shape, bool emits) {

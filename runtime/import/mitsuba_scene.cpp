@@ -1,8 +1,7 @@
-// A Mitsuba scene's frame: sensor, film, integrator, emitters, shapes and their transforms.
+// A Mitsuba scene's frame: sensor, film, integrator, emitters and transforms.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <numbers>
 
 #include "import/mitsuba_import.h"
@@ -26,44 +25,52 @@ std::optional<double> turn_about_y(const Affine& a) {
 }  // namespace
 
 MitsubaImport::MitsubaImport(const std::string& path, ImportTarget target)
-    : target_(std::move(target)), xml_(path), folder_(std::filesystem::path(path).parent_path().string()) {}
+    : target_(std::move(target)), xml_(path) {}
+
+// One step of a transform.
+Affine MitsubaImport::step_of(const Node& c) {
+  const auto vector = [&](const char* key, double fallback) {
+    const std::vector<double> v = xml_.numbers(c, xml_.attribute(c, key));
+    if (v.size() != 3 && v.size() != 1 && c.attribute(key)) xml_.fail(c, std::string("expected one number or three for ") + key);
+    if (v.empty()) return Vec3d{fallback, fallback, fallback};
+    return v.size() == 1 ? Vec3d{v[0], v[0], v[0]} : Vec3d{v[0], v[1], v[2]};
+  };
+  const auto component = [&](const char* key, double fallback) {
+    const std::vector<double> v = xml_.numbers(c, xml_.attribute(c, key));
+    if (v.size() != 1 && c.attribute(key)) xml_.fail(c, std::string("expected a number for ") + key);
+    return v.empty() ? fallback : v[0];
+  };
+  const auto xyz = [&](double fallback) { return c.attribute("value") ? vector("value", fallback) : Vec3d{component("x", fallback), component("y", fallback), component("z", fallback)}; };
+  if (is(c, "translate")) return translation_of(xyz(0));
+  if (is(c, "scale")) return scaling_of(xyz(1));
+  if (is(c, "rotate")) {
+    const Vec3d axis = xyz(0);
+    if (!(length(axis) > 0)) xml_.fail(c, "the axis of rotation is zero");
+    return rotation_of(component("angle", 0), axis);  // not normalised, as Mitsuba 3 does not: the same picture counts
+  }
+  if (is(c, "lookat") || is(c, "look_at")) {
+    const Vec3d origin = vector("origin", 0), target = vector("target", 0), up = c.attribute("up") ? vector("up", 0) : Vec3d{0, 1, 0};
+    const Affine look = look_at_of(origin, target, up);
+    if (!is_finite(look.column(0)) || !is_finite(look.column(2))) xml_.fail(c, "the target is the origin, or lies in the direction of up");
+    return look;
+  }
+  std::vector<double> m = xml_.numbers(c, xml_.attribute(c, "value"));
+  if (m.size() == 9) m = {m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1};
+  Affine step;
+  if (!matrix_of(m, step)) xml_.fail(c, "the matrix is no affine one of 9 or 16 numbers");
+  return step;
+}
 
 Affine MitsubaImport::transform_of(const Node& node, const char* name) {
   Affine all;
   const Node transform = xml_.child(node, name);
   for (const Node& c : transform.children()) {
-    if (c.type() != pugi::node_element) continue;
-    const auto vector = [&](const char* key, Vec3d fallback) {
-      const std::vector<double> v = xml_.numbers(c, xml_.attribute(c, key));
-      if (v.size() == 1) return Vec3d{v[0], v[0], v[0]};
-      return v.size() == 3 ? Vec3d{v[0], v[1], v[2]} : fallback;
-    };
-    const auto component = [&](const char* key, double fallback) {
-      const std::vector<double> v = xml_.numbers(c, xml_.attribute(c, key));
-      return v.size() == 1 ? v[0] : fallback;
-    };
-    const auto xyz = [&](double fallback) {
-      return c.attribute("value") ? vector("value", {fallback, fallback, fallback}) : Vec3d{component("x", fallback), component("y", fallback), component("z", fallback)};
-    };
-    Affine step;
-    if (is(c, "translate")) {
-      step = translation_of(xyz(0));
-    } else if (is(c, "scale")) {
-      step = scaling_of(xyz(1));
-    } else if (is(c, "rotate")) {
-      const Vec3d axis = xyz(0);
-      if (!(length(axis) > 0)) xml_.fail(c, "the axis of rotation is zero");
-      step = rotation_of(component("angle", 0), axis);  // not normalised, as Mitsuba 3 does not: the same picture counts
-    } else if (is(c, "lookat") || is(c, "look_at")) {
-      step = look_at_of(vector("origin", {0, 0, 0}), vector("target", {0, 0, 1}), vector("up", {0, 1, 0}));
-    } else if (is(c, "matrix")) {
-      if (!matrix_of(xml_.numbers(c, xml_.attribute(c, "value")), step)) xml_.fail(c, "the matrix is no affine one of 16 numbers");
-    } else {
-      continue;  // noted as left out
-    }
+    const char* steps[] = {"translate", "scale", "rotate", "lookat", "look_at", "matrix"};
+    if (std::none_of(std::begin(steps), std::end(steps), [&](const char* step) { return is(c, step); })) continue;  // noted as left out
     xml_.use(c);
-    all = step * all;
+    all = step_of(c) * all;
   }
+  if (transform && !(std::abs(all.determinant()) > 0)) xml_.fail(transform, "the transform is singular: it flattens space");
   return all;
 }
 
@@ -104,23 +111,37 @@ void MitsubaImport::read_film(const Node& film, ImportJson& camera) {
 
 void MitsubaImport::read_sensor(const Node& sensor) {
   const std::string type = sensor.attribute("type").value();
-  if (type != "perspective" && type != "thinlens") return;
+  if (type != "perspective" && type != "thinlens" && type != "orthographic") return;
   xml_.use(sensor);
+  if (!out_.json["camera"].empty()) {
+    note(sensor, "only the first sensor is taken: this one was left out");
+    for (const Node& c : sensor.children()) xml_.use(c);
+    return;
+  }
   ImportJson camera = ImportJson::object();
   camera["resolution"] = {768, 576};
   for (const Node& film : sensor.children("film")) read_film(film, camera);
   // Mitsuba's camera looks along +z with +x to the left; ours along -z with +x to the right.
   camera["transform"] = transform_json(transform_of(sensor, "to_world") * scaling_of({-1, 1, -1}));
-  camera["vfov"] = vertical_fov(sensor, camera["resolution"][0].get<double>(), camera["resolution"][1].get<double>());
+  const double width = camera["resolution"][0].get<double>(), height = camera["resolution"][1].get<double>();
+  if (type == "orthographic") {
+    camera["type"] = "orthographic";
+    camera["height"] = 2 * height / width;
+  } else {
+    camera["vfov"] = vertical_fov(sensor, width, height);
+  }
   if (type == "thinlens") {
     camera["aperture"] = xml_.number(sensor, "aperture_radius", 0);
     camera["fdist"] = xml_.number(sensor, "focus_distance", 1);
   }
   for (const char* name : {"near_clip", "far_clip"}) xml_.child(sensor, name);  // nothing is clipped here
-  if (const Node medium = xml_.child(sensor, "medium")) camera["medium"] = medium_of(follow(medium));
+  if (const ImportJson medium = shape_medium(sensor, "medium"); !medium.is_null()) {
+    camera["medium"] = medium;
+    if (medium.is_string()) camera_medium_ = medium;
+  }
   for (const Node& sampler : sensor.children("sampler")) {
     xml_.use(sampler);
-    out_.json["sampler"] = {{"samples", static_cast<int>(xml_.number(sampler, "sample_count", 4))}, {"seed", static_cast<int>(xml_.number(sampler, "seed", 0))}};
+    out_.json["sampler"] = {{"samples", xml_.integer(sampler, "sample_count", 4)}, {"seed", xml_.integer(sampler, "seed", 0)}};
   }
   if (camera["transform"].is_null()) camera.erase("transform");
   out_.json["camera"] = camera;
@@ -133,9 +154,9 @@ void MitsubaImport::read_integrator(const Node& integrator) {
     note(integrator, "an integrator of type \"" + type + "\" has no counterpart here: a path tracer is taken");
     return;
   }
-  const int depth = type == "direct" ? 2 : static_cast<int>(xml_.number(integrator, "max_depth", -1));
-  ImportJson j = {{"type", type.starts_with("vol") ? "path tracer volumetric mis" : "path tracer mis"}, {"max bounces", depth < 0 ? kEndless : std::max(0, depth - 1)}};
-  if (xml_.child(integrator, "rr_depth")) j["russian roulette"] = static_cast<int>(xml_.number(integrator, "rr_depth", 5));
+  const int depth = type == "direct" ? 2 : xml_.integer(integrator, "max_depth", -1);
+  ImportJson j = {{"type", type.starts_with("vol") ? "path tracer volumetric mis" : "path tracer mis"}, {"max bounces", depth < 0 ? kEndless : std::clamp(depth - 1, 0, kEndless)}};
+  if (xml_.child(integrator, "rr_depth")) j["russian roulette"] = xml_.integer(integrator, "rr_depth", 5);
   out_.json["integrator"] = j;
 }
 
@@ -148,7 +169,9 @@ void MitsubaImport::read_emitter(const Node& emitter) {
     out_.json["background"] = spectrum_child(emitter, "radiance", Role::Emission, 1.0);
     return;
   }
-  ImportJson j = {{"type", "environment"}, {"filename", relative_file(target_, folder_, xml_.text(emitter, "filename", ""))}};
+  const Node filename = xml_.child(emitter, "filename");
+  if (!filename) xml_.fail(emitter, "the environment map names no file");
+  ImportJson j = {{"type", "environment"}, {"filename", existing_file(filename, xml_.attribute(filename, "value"))}};
   const auto turn = turn_about_y(transform_of(emitter, "to_world"));
   if (!turn) note(emitter, "an environment map is turned about +y only here: its to_world was left out");
   // Mitsuba's image begins where ours has its middle.
@@ -157,96 +180,9 @@ void MitsubaImport::read_emitter(const Node& emitter) {
   out_.json["background"] = j;
 }
 
-// The faces of [-1, 1]^3, each a quad that looks outwards.
-ImportJson MitsubaImport::cube_of(const Affine& to_world) const {
-  ImportJson group = {{"type", "group"}, {"children", ImportJson::array()}};
-  if (const ImportJson t = transform_json(to_world); !t.is_null()) group["transform"] = t;
-  const std::pair<double, Vec3d> turns[6] = {{0, {0, 1, 0}}, {180, {0, 1, 0}}, {90, {0, 1, 0}}, {-90, {0, 1, 0}}, {90, {1, 0, 0}}, {-90, {1, 0, 0}}};
-  for (const auto& [degrees, axis] : turns) {
-    ImportJson turned = ImportJson::array({{{"translate", {0, 0, 1}}}});
-    if (degrees != 0) turned.push_back({{"rotate", {degrees, axis.x, axis.y, axis.z}}});
-    group["children"].push_back({{"type", "quad"}, {"size", 2}, {"transform", turned}});
-  }
-  return group;
-}
-
-ImportJson MitsubaImport::mesh_of(const Node& shape, const Affine& to_world, bool ply) {
-  const Node filename = xml_.child(shape, "filename");
-  if (!filename) xml_.fail(shape, "the mesh names no file");
-  const std::string file = xml_.attribute(filename, "value");
-  ImportJson j = {{"type", "mesh"}};
-  if (const Node facets = xml_.child(shape, "face_normals"); facets && xml_.attribute(facets, "value") == "true")
-    note(facets, "normals at corners are taken from the file, where it has any");
-  xml_.child(shape, "flip_tex_coords");
-  if (ply) {
-    try {
-      const std::string name = target_.stem + "_meshes/" + std::filesystem::path(file).stem().string() + "_" + std::to_string(out_.meshes.size()) + ".obj";
-      out_.meshes.emplace_back(name, read_ply((std::filesystem::path(folder_) / file).string()));
-      j["filename"] = name;
-    } catch (const std::runtime_error& error) {
-      xml_.fail(filename, file + " cannot be read as PLY: " + error.what());
-    }
-  } else {
-    j["filename"] = relative_file(target_, folder_, file);
-  }
-  if (const ImportJson t = transform_json(to_world); !t.is_null()) j["transform"] = t;
-  return j;
-}
-
-ImportJson MitsubaImport::shape_of(const Node& shape, const Affine& to_world) {
-  const std::string type = shape.attribute("type").value();
-  if (type == "cube") return cube_of(to_world);
-  if (type == "obj" || type == "ply") return mesh_of(shape, to_world, type == "ply");
-  if (type == "rectangle" || type == "sphere") {
-    ImportJson j = type == "sphere" ? ImportJson{{"type", "sphere"}, {"radius", xml_.number(shape, "radius", 1)}} : ImportJson{{"type", "quad"}, {"size", 2}};
-    Affine place = to_world;
-    if (const Node center = type == "sphere" ? xml_.child(shape, "center") : Node()) {
-      std::vector<double> v = center.attribute("value") ? xml_.numbers(center, xml_.attribute(center, "value")) : std::vector<double>();
-      if (v.empty())
-        for (const char* key : {"x", "y", "z"}) v.push_back(center.attribute(key) ? xml_.numbers(center, xml_.attribute(center, key)).at(0) : 0);
-      if (v.size() != 3) xml_.fail(center, "expected three numbers");
-      place = place * translation_of({v[0], v[1], v[2]});
-    }
-    if (const ImportJson t = transform_json(place); !t.is_null()) j["transform"] = t;
-    return j;
-  }
-  return nullptr;
-}
-
-void MitsubaImport::read_shape(const Node& shape) {
-  xml_.use(shape);
-  ImportJson surface = shape_of(shape, transform_of(shape, "to_world"));
-  if (surface.is_null()) {
-    note(shape, "a shape of type \"" + std::string(shape.attribute("type").value()) + "\" has no counterpart here and was left out");
-    for (const Node& c : shape.children()) xml_.use(c);
-    return;
-  }
-  ImportJson common = ImportJson::object();
-  if (shape.attribute("id")) common["name"] = xml_.attribute(shape, "id");
-  for (const Node& emitter : shape.children("emitter"))
-    if (std::strcmp(emitter.attribute("type").value(), "area") == 0) {
-      xml_.use(emitter);
-      common["emit"] = spectrum_child(emitter, "radiance", Role::Emission, 1.0);
-    }
-  common["material"] = shape_material(shape, common.contains("emit"));
-  if (const ImportJson inside = shape_medium(shape, "interior"); !inside.is_null()) common["inside"] = inside;
-  if (const ImportJson outside = shape_medium(shape, "exterior"); !outside.is_null()) common["outside"] = outside;
-  if (xml_.number(shape, "flip_normals", 0) != 0) common["flip"] = true;
-  if (surface["type"] == "group")
-    for (ImportJson& face : surface["children"]) face.update(common);
-  else
-    surface.update(common);
-  out_.json["surfaces"].push_back(surface);
-}
-
-ImportedScene MitsubaImport::run() {
-  const std::string version = xml_.root().attribute("version").value();
-  if (version.starts_with("0.")) note(xml_.root(), "version " + version + " spells many names otherwise; Mitsuba 3 upgrades such files");
-  for (const Node& node : xml_.root().children())
-    if (node.attribute("id")) by_id_[xml_.attribute(node, "id")] = node;
-  out_.json["camera"] = ImportJson::object();
-  for (const char* list : {"media", "materials", "surfaces"}) out_.json[list] = ImportJson::array();
-  for (const Node& node : xml_.root().children()) {
+// Media and materials with an id, in their order.
+void MitsubaImport::read_named() {
+  for (const Node& node : xml_.elements()) {
     const std::string id = xml_.attribute(node, "id");
     if (is(node, "medium") && !id.empty()) {
       if (ImportJson m = medium_of(node); !m.is_null()) {
@@ -264,13 +200,22 @@ ImportedScene MitsubaImport::run() {
     }
     if (is(node, "texture") || is(node, "spectrum")) xml_.use(node);
   }
-  for (const Node& node : xml_.root().children()) {
+}
+
+ImportedScene MitsubaImport::run() {
+  const std::string version = xml_.root().attribute("version").value();
+  if (version.starts_with("0.")) note(xml_.root(), "version " + version + " spells many names otherwise; Mitsuba 3 upgrades such files");
+  out_.json["camera"] = ImportJson::object();
+  for (const char* list : {"media", "materials", "surfaces"}) out_.json[list] = ImportJson::array();
+  read_named();
+  for (const Node& node : xml_.elements()) {
     if (is(node, "sensor")) read_sensor(node);
     if (is(node, "integrator")) read_integrator(node);
     if (is(node, "emitter")) read_emitter(node);
     if (is(node, "shape")) read_shape(node);
   }
-  if (out_.json["camera"].empty()) note(xml_.root(), "there is no perspective sensor: the camera stands at (0, 0, 0) and looks along -z");
+  if (out_.json["camera"].empty()) note(xml_.root(), "there is no sensor that has a counterpart: the camera stands at (0, 0, 0) and looks along -z");
+  name_media_around(out_, target_, camera_medium_);
   xml_.note_the_rest(out_);
   std::stable_sort(out_.notes.begin(), out_.notes.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   return std::move(out_);

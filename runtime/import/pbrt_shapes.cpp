@@ -46,8 +46,6 @@ void give_default_uvs(ImportedMesh& mesh) {
   mesh = std::move(apart);
 }
 
-bool has_image(const ImportJson& material) { return material.dump().find("\"image\"") != std::string::npos; }
-
 }  // namespace
 
 ImportJson PbrtImport::mesh_of(const std::string& name, ImportedMesh mesh) {

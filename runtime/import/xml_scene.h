@@ -1,7 +1,8 @@
-// An XML file in Mitsuba's manner: elements with lines, $defaults substituted, and a memory of what was read, so that the rest can be
-// named. Knows nothing of what the elements mean.
+// An XML file in Mitsuba's manner, with the files it includes: elements with lines, $defaults substituted, and a memory of what was read, so
+// that the rest can be named. Knows nothing of what the elements mean.
 #pragma once
 #include <map>
+#include <memory>
 #include <pugixml.hpp>
 #include <set>
 #include <string>
@@ -13,33 +14,55 @@ namespace stokes {
 
 class XmlScene {
  public:
+  using Node = pugi::xml_node;
+
   /// Throws ImportError.
   explicit XmlScene(const std::string& path);
 
-  const std::string& path() const { return path_; }
-  pugi::xml_node root() const { return document_.document_element(); }
-  int line(const pugi::xml_node& node) const;
-  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& message) const { throw ImportError(path_, line(node), message); }
+  Node root() const { return files_.front()->document.document_element(); }
+  /// The scene's elements, those of included files in the place of their <include>.
+  const std::vector<Node>& elements() const { return elements_; }
+  /// The element of an id, or of one of its aliases; null when there is none.
+  Node by_id(const std::string& id) const;
+  /// `path` as a file's name for us: relative to the scene's folder, the including file's, or a <path>'s, where it is there.
+  std::string file_named(const Node& node, const std::string& path) const;
+
+  const std::string& path_of(const Node& node) const { return file_of(node).path; }
+  int line(const Node& node) const;
+  [[noreturn]] void fail(const Node& node, const std::string& message) const { throw ImportError(path_of(node), line(node), message); }
 
   /// Elements that were understood; the others are noted at the end.
-  void use(const pugi::xml_node& node) { used_.insert(node.internal_object()); }
-  bool is_used(const pugi::xml_node& node) const { return used_.count(node.internal_object()) > 0; }
+  void use(const Node& node) { used_.insert(node.internal_object()); }
+  bool is_used(const Node& node) const { return used_.count(node.internal_object()) > 0; }
   /// Notes every element that was not used; what lies in one is not looked at.
   void note_the_rest(ImportedScene& scene) const;
 
-  /// An attribute with `$name`s replaced by the file's defaults; empty when it is not there.
-  std::string attribute(const pugi::xml_node& node, const char* name) const;
+  /// An attribute with `$name`s replaced by the scene's defaults; empty when it is not there.
+  std::string attribute(const Node& node, const char* name) const;
   /// The child element with this `name` attribute, marked as used; null when there is none.
-  pugi::xml_node child(const pugi::xml_node& node, const char* name);
+  Node child(const Node& node, const char* name);
   /// The number of a child's value; a boolean's is 0 or 1.
-  double number(const pugi::xml_node& node, const char* name, double fallback);
-  std::string text(const pugi::xml_node& node, const char* name, const std::string& fallback);
-  /// Numbers separated by spaces or commas.
-  std::vector<double> numbers(const pugi::xml_node& node, const std::string& text) const;
+  double number(const Node& node, const char* name, double fallback);
+  /// The same of a whole number within the range of int; what is beyond becomes its end.
+  int integer(const Node& node, const char* name, int fallback);
+  std::string text(const Node& node, const char* name, const std::string& fallback);
+  /// Finite numbers separated by spaces or commas.
+  std::vector<double> numbers(const Node& node, const std::string& text) const;
 
  private:
-  std::string path_, content_;
-  pugi::xml_document document_;
+  struct File {
+    std::string path, content;
+    pugi::xml_document document;
+  };
+  Node read_file(const std::string& path, const Node& from);
+  void collect(const Node& root, int depth);
+  void collect_ids(const Node& node);
+  const File& file_of(const Node& node) const;
+
+  std::vector<std::unique_ptr<File>> files_;  // the scene's first
+  std::vector<Node> elements_;
+  std::vector<std::string> folders_;  // of <path>
+  std::map<std::string, Node> by_id_;
   std::map<std::string, std::string> defaults_;
   std::set<const void*> used_;
 };

@@ -23,7 +23,7 @@ expect 0 "$STOKES" compare a.exr b.exr
 
 # Files that the scene leaves where they are: said where rendering will ask for a permission.
 mkdir -p far near/by
-printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >far/corner.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n' >far/corner.obj
 printf '<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>\n<shape type="obj"><string name="filename" value="corner.obj"/></shape></scene>\n' >far/corner.xml
 cd near/by || exit 1
 expect 0 "$STOKES" import ../../far/corner.xml -o corner.json
@@ -64,6 +64,18 @@ tr -d ' \n' <turn.json >turn.txt
 says turn.txt '"matrix":\[1.0,0.13397[0-9]*,0.5,'
 says turn.txt '"emit":{"type":"constant","value":2.5}'
 says turn.txt '"background":1.5'
+
+# A packed mesh, one that ends early, and an element of nothing many times.
+gzip -c "$SOURCES/corner.ply" >packed.ply.gz
+printf 'Camera "perspective"\nWorldBegin\nShape "plymesh" "string filename" "packed.ply.gz"\n' >packed.pbrt
+expect 0 "$STOKES" import packed.pbrt -o packed.json --strict
+head -c 90 packed.ply.gz >cut.ply.gz
+sed s/packed.ply/cut.ply/ packed.pbrt >cut.pbrt
+expect 2 "$STOKES" import cut.pbrt -o x.json
+says err.txt '^cut.pbrt:3: error: cut.ply.gz cannot be read as PLY: it is packed, and damaged'
+sed 's/^element face/element void 99999999999999\n&/' "$SOURCES/corner.ply" >packed.ply
+sed s/packed.ply.gz/packed.ply/ packed.pbrt >void.pbrt
+expect 0 timeout 20 "$STOKES" import void.pbrt -o void.json
 
 # Refused, in one line at its place.
 expect 5 "$STOKES" import "$SOURCES/fog.xml" -o box.json
