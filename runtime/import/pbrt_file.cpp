@@ -1,11 +1,13 @@
 // A pbrt-v4 file as a list of directives with typed parameters.
 #include "import/pbrt_file.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "scene/csv.h"
 
@@ -13,12 +15,30 @@ namespace stokes {
 namespace {
 
 constexpr int kMaxIncludes = 32;
+// Of parameters.
+constexpr std::string_view kTypes[] = {"integer", "float", "point", "point2", "point3", "vector", "vector2", "vector3", "normal", "normal3", "bool", "string", "texture", "rgb", "spectrum", "blackbody"};
 
 struct Token {
   std::string text;
   int line = 0;
   bool quoted = false;
 };
+
+// Reads a string from behind its first quote; returns where it is over, npos where it is none.
+std::size_t string_at(const std::string& text, std::size_t i, std::string& word) {
+  for (; i < text.size() && text[i] != '\n'; i++) {
+    if (text[i] == '"') return i + 1;
+    if (text[i] != '\\') {
+      word += text[i];
+      continue;
+    }
+    constexpr std::string_view kEscapes = "bfnrt\\\'\"", kMeant = "\b\f\n\r\t\\\'\"";
+    const std::size_t which = ++i < text.size() ? kEscapes.find(text[i]) : std::string::npos;
+    if (which == std::string::npos) break;
+    word += kMeant[which];
+  }
+  return std::string::npos;
+}
 
 std::vector<Token> tokens_of(const std::string& path, const std::string& text) {
   std::vector<Token> tokens;
@@ -31,10 +51,10 @@ std::vector<Token> tokens_of(const std::string& path, const std::string& text) {
     } else if (c == '#') {
       while (i < text.size() && text[i] != '\n') i++;
     } else if (c == '"') {
-      const std::size_t end = text.find_first_of("\"\n", i + 1);
-      if (end == std::string::npos || text[end] == '\n') throw ImportError(path, line, "a string has no end");
-      tokens.push_back({text.substr(i + 1, end - i - 1), line, true});
-      i = end + 1;
+      std::string word;
+      i = string_at(text, i + 1, word);
+      if (i == std::string::npos) throw ImportError(path, line, "a string has no end, or an unknown escape");
+      tokens.push_back({word, line, true});
     } else if (c == '[' || c == ']') {
       tokens.push_back({std::string(1, c), line, false});
       i++;
@@ -55,12 +75,13 @@ class PbrtReader {
   explicit PbrtReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void read(const std::string& path, int depth) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    if (!file || std::filesystem::is_directory(path)) throw ImportError(path, 1, "the file cannot be read");
-    if (depth > kMaxIncludes) throw ImportError(path, 1, "files include each other without end");
-    text << file.rdbuf();
-    const std::vector<Token> tokens = tokens_of(path, text.str());
+    std::string text;
+    try {
+      text = read_text_file(path);
+    } catch (const std::runtime_error& error) {
+      throw ImportError(path, 1, std::string("the file cannot be read: ") + error.what());
+    }
+    const std::vector<Token> tokens = tokens_of(path, text);
     for (std::size_t i = 0; i < tokens.size();) {
       if (tokens[i].quoted || !std::isalpha(static_cast<unsigned char>(tokens[i].text[0])))
         throw ImportError(path, tokens[i].line, "expected a directive, not " + tokens[i].text);
@@ -72,10 +93,13 @@ class PbrtReader {
       i = arguments(path, tokens, i + 1, directive);
       if (directive.name == "Include" || directive.name == "Import") {
         if (directive.words.size() != 1) throw ImportError(path, directive.line, directive.name + " needs the name of a file");
+        if (depth == kMaxIncludes) throw ImportError(path, directive.line, "files include each other without end");
+        const std::string included = (folder_ / directive.words[0]).string();
+        if (!std::filesystem::exists(included)) throw ImportError(path, directive.line, "there is no file \"" + directive.words[0] + "\"");
         // What an imported file sets ends with it.
         const bool bracket = directive.name == "Import";
         if (bracket) all.push_back(named(directive, "AttributeBegin"));
-        read((folder_ / directive.words[0]).string(), depth + 1);
+        read(included, depth + 1);
         if (bracket) all.push_back(named(directive, "AttributeEnd"));
       } else {
         all.push_back(directive);
@@ -119,6 +143,7 @@ class PbrtReader {
     PbrtParameter p;
     std::istringstream(tokens[i].text) >> p.type >> p.name;
     p.line = tokens[i].line;
+    if (std::find(std::begin(kTypes), std::end(kTypes), p.type) == std::end(kTypes)) throw ImportError(path, p.line, "\"" + tokens[i].text + "\": nothing has the type " + p.type);
     const bool list = i + 1 < tokens.size() && tokens[i + 1].text == "[" && !tokens[i + 1].quoted;
     i += list ? 2 : 1;
     for (; i < tokens.size(); i++) {
@@ -155,6 +180,10 @@ double PbrtDirective::number(const std::string& wanted, double fallback) const {
   if (!p) return fallback;
   if (p->numbers.size() != 1) throw ImportError(file, p->line, "\"" + p->name + "\" needs a number");
   return p->numbers[0];
+}
+
+int PbrtDirective::integer(const std::string& wanted, int fallback) const {
+  return static_cast<int>(std::clamp<double>(number(wanted, fallback), std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
 }
 
 std::string PbrtDirective::text(const std::string& wanted, const std::string& fallback) const {

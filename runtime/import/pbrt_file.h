@@ -26,6 +26,8 @@ struct PbrtDirective {
   /// The parameter of this name, marked as used; null when there is none.
   const PbrtParameter* find(const std::string& name) const;
   double number(const std::string& name, double fallback) const;
+  /// The same of a whole number within the range of int; what is beyond becomes its end.
+  int integer(const std::string& name, int fallback) const;
   std::string text(const std::string& name, const std::string& fallback) const;
 };
 

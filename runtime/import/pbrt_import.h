@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "import/affine_json.h"
 #include "import/pbrt_file.h"
@@ -26,6 +27,7 @@ class PbrtImport {
     ImportJson emit;  // null: none
     std::string inside, outside;
     bool reverse = false;
+    std::map<std::string, std::vector<PbrtParameter>> defaults;  // of Attribute, by its kind of directive
     bool at_start = true;  // transforms mean the shutter's opening, the one moment that we know
   };
 
@@ -36,6 +38,8 @@ class PbrtImport {
   bool apply_transform(const PbrtDirective& d);
   bool apply_option(const PbrtDirective& d);
   bool apply_attribute(const PbrtDirective& d);
+  bool apply_defaults(const PbrtDirective& d);
+  PbrtDirective with_defaults(PbrtDirective d) const;
   bool apply_light(const PbrtDirective& d);
   void apply_camera(const PbrtDirective& d);
   void finish_camera();
@@ -71,6 +75,7 @@ class PbrtImport {
   std::map<std::string, ImportJson> textures_;  // by "spectrum name" or "float name"
   std::set<std::string> materials_, media_;       // all names, which may be used before they are made
   std::set<std::string> made_materials_;
+  std::set<std::tuple<std::string, int, std::string>> noted_;  // file, line and name of parameters
   std::set<std::string> left_out_;                // media that are none of ours
   std::map<std::string, Affine> coordinate_systems_;
   std::map<std::string, ImportJson> objects_;

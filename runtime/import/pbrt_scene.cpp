@@ -1,8 +1,10 @@
 // A pbrt scene's frame: the graphics state, camera, film, lights and shapes.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 
+#include "import/media_around.h"
 #include "import/pbrt_import.h"
 
 namespace stokes {
@@ -23,7 +25,8 @@ PbrtImport::PbrtImport(const std::string& path, ImportTarget target)
 
 void PbrtImport::note_unused(const PbrtDirective& d) {
   for (const PbrtParameter& p : d.parameters)
-    if (!p.used) out_.note(d.file, p.line, "\"" + p.type + " " + p.name + "\" of " + d.name + " has no counterpart here and was left out");
+    // Those of an Attribute come again with every directive.
+    if (!p.used && noted_.emplace(d.file, p.line, p.name).second) out_.note(d.file, p.line, "\"" + p.type + " " + p.name + "\" of " + d.name + " has no counterpart here and was left out");
 }
 
 bool PbrtImport::apply_transform(const PbrtDirective& d) {
@@ -66,6 +69,7 @@ bool PbrtImport::apply_transform(const PbrtDirective& d) {
   } else {
     return false;
   }
+  if (!is_finite(state_.transform.translation()) || !(std::abs(state_.transform.determinant()) > 0)) throw ImportError(d.file, d.line, d.name + " makes the transform singular: it flattens space");
   if (!state_.at_start) {
     state_.transform = before;
     note(d, d.name + " of the shutter's closing was left out");
@@ -74,7 +78,9 @@ bool PbrtImport::apply_transform(const PbrtDirective& d) {
 }
 
 void PbrtImport::apply_camera(const PbrtDirective& d) {
-  if (d.words.empty() || d.words[0] != "perspective") note(d, "a camera of type \"" + (d.words.empty() ? "" : d.words[0]) + "\" has no counterpart here: a perspective one is taken");
+  const bool orthographic = !d.words.empty() && d.words[0] == "orthographic";
+  if (orthographic) camera_["type"] = "orthographic";
+  if (!orthographic && (d.words.empty() || d.words[0] != "perspective")) note(d, "a camera of type \"" + (d.words.empty() ? "" : d.words[0]) + "\" has no counterpart here: a perspective one is taken");
   world_to_camera_ = state_.transform;
   coordinate_systems_["camera"] = state_.transform.inverse();
   camera_directive_ = &d;
@@ -98,11 +104,11 @@ bool PbrtImport::apply_option(const PbrtDirective& d) {
     if (type != "rgb") note(d, "a film of type \"" + type + "\" has no counterpart here: R, G and B are taken (--spectral and --aov give the rest)");
     for (const char* name : {"filename", "savefp16"}) d.find(name);
   } else if (d.name == "Sampler") {
-    out_.json["sampler"] = {{"samples", static_cast<int>(d.number("pixelsamples", 16))}};
-    if (d.find("seed")) out_.json["sampler"]["seed"] = static_cast<int>(d.number("seed", 0));
+    out_.json["sampler"] = {{"samples", d.integer("pixelsamples", 16)}};
+    if (d.find("seed")) out_.json["sampler"]["seed"] = d.integer("seed", 0);
   } else if (d.name == "Integrator") {
     if (type != "path" && type != "volpath") note(d, "an integrator of type \"" + type + "\" has no counterpart here: a path tracer is taken");
-    out_.json["integrator"] = {{"type", type == "volpath" ? "path tracer volumetric mis" : "path tracer mis"}, {"max bounces", static_cast<int>(d.number("maxdepth", 5))}};
+    out_.json["integrator"] = {{"type", type == "volpath" ? "path tracer volumetric mis" : "path tracer mis"}, {"max bounces", d.integer("maxdepth", 5)}};
     d.find("lightsampler");  // which has no say in the mean
   } else if (d.name == "WorldBegin") {
     state_.transform = Affine{};
@@ -132,6 +138,7 @@ bool PbrtImport::apply_attribute(const PbrtDirective& d) {
   } else if (d.name == "Material") {
     state_.material = material_of(d, type);
   } else if (d.name == "MakeNamedMaterial") {
+    if (made_materials_.count(type)) throw ImportError(d.file, d.line, "there is already a material called \"" + type + "\"");
     ImportJson m = material_of(d, d.text("type", ""));
     m["name"] = type;
     out_.json["materials"].push_back(m);
@@ -177,10 +184,12 @@ bool PbrtImport::apply_block(const PbrtDirective& d) {
     stack_.emplace_back(state_, attribute);
   } else if (d.name == "AttributeEnd" || d.name == "TransformEnd") {
     if (stack_.empty()) throw ImportError(d.file, d.line, d.name + " without its beginning");
-    if (stack_.back().second)
-      state_ = stack_.back().first;
+    const auto& [saved, attributes] = stack_.back();
+    if (attributes != (d.name == "AttributeEnd")) throw ImportError(d.file, d.line, d.name + " where an " + (attributes ? "Attribute" : "Transform") + "Begin is open");
+    if (attributes)
+      state_ = saved;
     else
-      state_.transform = stack_.back().first.transform;
+      state_.transform = saved.transform;
     stack_.pop_back();
   } else {
     return false;
@@ -188,9 +197,38 @@ bool PbrtImport::apply_block(const PbrtDirective& d) {
   return true;
 }
 
-void PbrtImport::apply(const PbrtDirective& d) {
+// Parameters that an Attribute gives to all directives of a kind: they stand where a directive does not have its own.
+bool PbrtImport::apply_defaults(const PbrtDirective& d) {
+  if (d.name != "Attribute") return false;
+  const std::string kind = d.words.empty() ? "" : d.words[0];
+  const char* kinds[] = {"shape", "light", "material", "medium", "texture"};
+  if (std::find(std::begin(kinds), std::end(kinds), kind) == std::end(kinds)) throw ImportError(d.file, d.line, "Attribute needs shape, light, material, medium or texture");
+  for (const PbrtParameter& p : d.parameters) {
+    std::vector<PbrtParameter>& all = state_.defaults[kind];
+    std::erase_if(all, [&](const PbrtParameter& other) { return other.name == p.name; });
+    all.push_back(p);
+    p.used = true;
+  }
+  return true;
+}
+
+PbrtDirective PbrtImport::with_defaults(PbrtDirective d) const {
+  static const std::map<std::string, std::string> kinds = {{"Shape", "shape"}, {"LightSource", "light"}, {"AreaLightSource", "light"}, {"Material", "material"},
+                                                           {"MakeNamedMaterial", "material"}, {"MakeNamedMedium", "medium"}, {"Texture", "texture"}};
+  const auto kind = kinds.find(d.name);
+  const auto defaults = kind == kinds.end() ? state_.defaults.end() : state_.defaults.find(kind->second);
+  if (defaults == state_.defaults.end()) return d;
+  for (const PbrtParameter& p : defaults->second)
+    if (std::none_of(d.parameters.begin(), d.parameters.end(), [&](const PbrtParameter& own) { return own.name == p.name; })) d.parameters.push_back(p);
+  return d;
+}
+
+void PbrtImport::apply(const PbrtDirective& given) {
+  if (given.name == "Camera") return apply_option(given), note_unused(given);
+  const PbrtDirective d = with_defaults(given);
   if (d.name == "Shape") {
     apply_shape(d);
+  } else if (apply_defaults(d)) {
   } else if (!apply_block(d) && !apply_transform(d) && !apply_option(d) && !apply_attribute(d) && !apply_light(d) && !apply_object(d)) {
     note(d, d.name + (d.words.empty() ? "" : " \"" + d.words[0] + "\"") + " has no counterpart here and was left out");
     return;
@@ -222,7 +260,10 @@ void PbrtImport::finish_camera() {
     else
       out_.note(camera_directive_->file, window->line, "a screenwindow that is off the middle, or not of the film's shape, was left out");
   }
-  camera_["vfov"] = std::atan(top * std::tan(fov_ * std::numbers::pi / 360)) * 360 / std::numbers::pi;
+  if (camera_.contains("type"))
+    camera_["height"] = 2 * top;
+  else
+    camera_["vfov"] = std::atan(top * std::tan(fov_ * std::numbers::pi / 360)) * 360 / std::numbers::pi;
   camera_["resolution"] = {width_, height_};
   out_.json["camera"] = camera_;
 }
@@ -251,6 +292,7 @@ ImportedScene PbrtImport::run() {
   for (const PbrtDirective& d : directives) apply(d);
   if (!stack_.empty()) throw ImportError(path_, 1, "an AttributeBegin, TransformBegin or ObjectBegin has no end");
   finish_camera();
+  name_media_around(out_, target_, camera_medium_);
   return std::move(out_);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "import/media_around.h"
 #include "import/pbrt_import.h"
 
 namespace stokes {
@@ -95,6 +96,7 @@ ImportJson PbrtImport::shape_of(const PbrtDirective& d, const std::string& type)
   if (type == "trianglemesh" || type == "bilinearmesh") return mesh_of("mesh", triangles_of(d));
   if (type != "plymesh") return nullptr;
   const std::string file = d.text("filename", "");
+  if (file.empty()) throw ImportError(d.file, d.line, "the plymesh names no file");
   try {
     return mesh_of(std::filesystem::path(file).stem().string(), read_ply((std::filesystem::path(folder_) / file).string()));
   } catch (const ImportError&) {
@@ -104,14 +106,10 @@ ImportJson PbrtImport::shape_of(const PbrtDirective& d, const std::string& type)
   }
 }
 
-// A shape between two media sets them. One that has the same on both sides leaves the ray's medium as it is, for which ours need its name:
-// it stands in that medium, or where none is named in the camera's.
+// A shape between two media sets them. One that has the same on both sides leaves the ray's medium as it is: it is named at the end.
 void PbrtImport::set_media(const PbrtDirective& d, ImportJson& surface) {
-  std::string inside = medium_named(d, state_.inside), outside = medium_named(d, state_.outside);
-  if (inside.empty() && outside.empty() && !media_.empty()) {
-    inside = outside = camera_medium_;
-    if (!inside.empty()) note(d, "a shape without a medium interface leaves rays in their medium: it is taken to stand in the camera's, \"" + inside + "\"");
-  }
+  const std::string inside = medium_named(d, state_.inside), outside = medium_named(d, state_.outside);
+  if (inside == outside) return;
   if (!inside.empty()) surface["inside"] = inside;
   if (!outside.empty()) surface["outside"] = outside;
 }
@@ -128,6 +126,7 @@ void PbrtImport::apply_shape(const PbrtDirective& d) {
   surface["material"] = state_.material;
   if (!state_.emit.is_null() && object_.empty()) surface["emit"] = state_.emit;
   if (!state_.emit.is_null() && !object_.empty()) note(d, "lamps in objects do not shine, as in pbrt");
+  surface[kPlaceKey] = place_of(d.file, d.line);
   set_media(d, surface);
   if (state_.reverse) surface["flip"] = true;
   (object_.empty() ? out_.json["surfaces"] : objects_[object_]).push_back(surface);

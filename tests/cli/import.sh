@@ -41,7 +41,7 @@ says err.txt 'strange.xml:12: note: <emitter type="point"> has no counterpart'
 expect 0 "$STOKES" check strange.json
 expect 2 "$STOKES" import "$SOURCES/strange.xml" -o strict.json --strict
 expect 0 "$STOKES" import "$SOURCES/strange.pbrt" -o strange_pbrt.json
-for line in 1 2 3 4 5 7 8 9 10 12 13 14 15 17 19 20 21 22 24 25 26 27 28 29 30 31 32 33 36 37 39 40 41 44 45 46 47 48 50 51; do
+for line in 1 2 3 4 5 7 8 9 10 12 13 14 15 17 20 21 22 24 25 26 27 28 29 30 31 32 33 36 37 39 40 41 44 45 46 47 48 50 51; do
   says err.txt "strange.pbrt:$line: note: "
 done
 says err.txt 'strange.pbrt:51: note: "float power" of AreaLightSource has no counterpart'

@@ -205,7 +205,9 @@ TEST_F(ImportPbrt, AnInterfaceNamesInsideThenOutside) {
   };
   EXPECT_EQ(sides("WorldBegin MediumInterface \"a\" \"b\""), "a|b");
   EXPECT_EQ(sides("WorldBegin MediumInterface \"a\" \"\""), "a|");
-  EXPECT_EQ(sides("WorldBegin MediumInterface \"a\""), "a|a");
+  // One name is both sides, which is no transition: rays keep their medium.
+  EXPECT_EQ(sides("WorldBegin MediumInterface \"a\""), "|");
+  EXPECT_EQ(sides("MediumInterface \"\" \"b\" Camera \"perspective\" WorldBegin MediumInterface \"a\""), "b|b");
   EXPECT_EQ(sides("WorldBegin"), "|");
   // What stands at the camera is the camera's; a shape without an interface stands in it.
   EXPECT_EQ(pbrt(media + "MediumInterface \"\" \"b\" Camera \"perspective\" WorldBegin").json["camera"]["medium"], "b");
@@ -282,6 +284,58 @@ TEST_F(ImportPbrt, WhatCannotBeMeantIsRefusedAtItsLine) {
   EXPECT_EQ(pbrt_error("WorldBegin\nAttributeBegin"), "1: error: an AttributeBegin, TransformBegin or ObjectBegin has no end");
   EXPECT_EQ(pbrt_error("WorldBegin\nMaterial \"diffuse\"\n\"spectrum reflectance\" [ 500 1 400 1 ]"), "3: error: the wavelengths of \"reflectance\" do not increase");
   EXPECT_EQ(pbrt_error("WorldBegin\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]\n\"integer indices\" [ 0 1 ]"), "3: error: the number of indices is no multiple of 3");
+}
+
+TEST_F(ImportPbrt, StringsHaveEscapesAndFilesMayBePacked) {
+  write("a \"b.exr", "");
+  const ImportedScene scene = pbrt("Camera \"perspective\" WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a \\\"b.exr\" Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"");
+  EXPECT_EQ(surface_of(scene)["material"]["albedo"]["filename"], "a \"b.exr");
+  EXPECT_EQ(pbrt_error("WorldBegin\nShape \"sp\\x\""), "2: error: a string has no end, or an unknown escape");
+  EXPECT_EQ(pbrt_error("WorldBegin\nInclude \"gone.pbrt\""), "2: error: there is no file \"gone.pbrt\"");
+  EXPECT_THAT(pbrt_error("WorldBegin\nInclude \"scene.pbrt\""), testing::StartsWith("2: error: files include each other"));
+}
+
+TEST_F(ImportPbrt, AttributesStandWhereADirectiveHasNone) {
+  const ImportedScene scene = pbrt(R"(Camera "perspective" WorldBegin
+AttributeBegin Attribute "shape" "float radius" 3 Attribute "material" "rgb reflectance" [ 0.1 0.2 0.3 ] Attribute "light" "float scale" 2
+Material "diffuse" AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] Shape "sphere" Shape "sphere" "float radius" 1
+AttributeEnd Shape "sphere" Material "diffuse" Shape "sphere")");
+  EXPECT_THAT(scene.notes, IsEmpty());
+  const ImportJson& surfaces = scene.json["surfaces"];
+  EXPECT_EQ(surfaces[0]["radius"], 3);
+  EXPECT_EQ(surfaces[0]["material"]["albedo"], ImportJson({0.1, 0.2, 0.3}));
+  EXPECT_EQ(surfaces[0]["emit"], ImportJson({2.0, 4.0, 6.0}));
+  EXPECT_EQ(surfaces[1]["radius"], 1);
+  EXPECT_EQ(surfaces[2]["radius"], 1);
+  EXPECT_EQ(surfaces[3]["material"]["albedo"], 0.5);
+  // One that no directive understands is noted, once.
+  const ImportedScene strange = pbrt("Camera \"perspective\" WorldBegin\nAttribute \"shape\" \"float alpha\" 0.5\nShape \"sphere\" AttributeBegin Shape \"sphere\" AttributeEnd");
+  ASSERT_THAT(strange.notes, testing::SizeIs(1));
+  EXPECT_EQ(strange.notes[0].line, 2);
+  EXPECT_THAT(pbrt_error("WorldBegin\nAttribute \"shapes\" \"float radius\" 3"), testing::StartsWith("2: error: "));
+}
+
+TEST_F(ImportPbrt, WhatPbrtRefusesIsRefusedAtItsLine) {
+  for (const char* text : {"Rotate 30 0 0 0", "Scale 0 1 1", "LookAt 0 0 0 0 1 0 0 1 0", "AttributeBegin TransformEnd", "TransformBegin AttributeEnd", "Shape \"sphere\" \"flaot radius\" 3",
+                           "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"a\" \"string type\" \"diffuse\"", "Shape \"plymesh\""})
+    EXPECT_THAT(pbrt_error("WorldBegin\n" + std::string(text)), testing::StartsWith("2: error: ")) << text;
+}
+
+TEST_F(ImportPbrt, AnOrthographicCameraSeesTwoUnitsAlongTheShorterSide) {
+  const auto height = [&](const std::string& film) { return pbrt("Film \"rgb\" " + film + " Camera \"orthographic\" WorldBegin").json["camera"]["height"].get<double>(); };
+  EXPECT_DOUBLE_EQ(height("\"integer xresolution\" 400 \"integer yresolution\" 200"), 2);
+  EXPECT_DOUBLE_EQ(height("\"integer xresolution\" 200 \"integer yresolution\" 400"), 4);
+}
+
+TEST_F(ImportPbrt, AShapeWithoutAnInterfaceStandsInTheMediumAroundIt) {
+  const ImportedScene scene = pbrt(R"(Camera "perspective" WorldBegin MakeNamedMedium "fog" "string type" "homogeneous"
+AttributeBegin MediumInterface "fog" "" Material "interface" Shape "sphere" "float radius" 5 AttributeEnd
+Shape "sphere"
+Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ]
+Translate 20 0 0 Shape "sphere")");
+  EXPECT_THAT(scene.notes, IsEmpty());
+  for (const std::size_t i : {1u, 2u}) EXPECT_EQ(scene.json["surfaces"][i]["outside"], "fog");
+  EXPECT_FALSE(scene.json["surfaces"][3].contains("outside"));
 }
 
 }  // namespace
