@@ -26,8 +26,9 @@ found=$build/sanitizer-findings
 rm -rf "$found"
 mkdir "$found"
 for which in leak thread; do sed -n "s/^$which: *//p" "$source_dir/tests/support/sanitizers.txt" > "$found/$which.suppressions"; done
-# A library that is preloaded (opencl_faults) may come before the sanitizer's own; its crashes are the supervisor's to see.
-export ASAN_OPTIONS=log_path=$found/log:verify_asan_link_order=0:handle_segv=0:handle_sigbus=0
+# A library that is preloaded (opencl_faults) may come before the sanitizer's own; its crashes are the supervisor's to see. clang 14's tracking of
+# thread-local storage in loaded libraries takes wrong addresses from glibc 2.36, on which LeakSanitizer dies.
+export ASAN_OPTIONS=log_path=$found/log:verify_asan_link_order=0:handle_segv=0:handle_sigbus=0:intercept_tls_get_addr=0
 export UBSAN_OPTIONS=print_stacktrace=1:log_path=$found/log
 export LSAN_OPTIONS=suppressions=$found/leak.suppressions:print_suppressions=0
 export TSAN_OPTIONS=log_path=$found/log:suppressions=$found/thread.suppressions:ignore_noninstrumented_modules=1
@@ -35,14 +36,6 @@ export TSAN_OPTIONS=log_path=$found/log:suppressions=$found/thread.suppressions:
 export OCL_ICD_VENDORS=/etc/OpenCL/vendors/pocl.icd
 run_tests "$build" "$@"
 status=$?
-# LeakSanitizer itself fails now and then (a signal in its tracer, while threads of a driver end); what failed with it is tried once more.
-if broken=$(grep -ls 'LeakSanitizer has encountered a fatal error' "$found"/log.*); then
-  echo "LeakSanitizer itself failed in $(echo "$broken" | wc -l) processes; the tests that failed are run again"
-  # shellcheck disable=SC2086
-  rm $broken
-  run_tests "$build" --rerun-failed
-  status=$?
-fi
 
 count=$(find "$found" -name 'log.*' | wc -l)
 [ "$count" -eq 0 ] || head -25 "$found"/log.*
