@@ -52,8 +52,9 @@ def _options(
     **rest: Any,
 ) -> dict[str, Any]:
     for name, low in (("spp", 1), ("seed", 0), ("threads", 0)):
-        if rest.get(name) is not None and not low <= rest[name] < 2**31 * (2 if name == "seed" else 1):
-            raise ValueError(f"{name}: {rest[name]} is out of range")
+        high = 2**32 - 1 if name == "seed" else 2**31 - 1
+        if rest.get(name) is not None and not low <= rest[name] <= high:
+            raise ValueError(f"{name}: {rest[name]} is not in the range {low} to {high}")
     if rest.get("mode") not in (None, "spectral", "rgb"):
         raise ValueError(f"mode: {rest['mode']!r} is neither 'spectral' nor 'rgb'")
     if rest.get("wavelengths_per_path") not in (None, 1, 4, 8):

@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "image/error.h"
 #include "image/image_file.h"
 #include "image/parity.h"
 #include "image/replace_file.h"
@@ -64,16 +65,28 @@ void print_json(const ImageDifference& d, const std::optional<ParityResult>& par
 void print_text(const ImageDifference& d, const std::optional<ParityResult>& parity) {
   std::printf("MSE      %.6g\nrelMSE   %.6g\nFLIP     %.6g\nlargest  %.6g at (%d, %d)\n", d.mse, d.relative_mse, d.flip, d.largest, d.largest_x, d.largest_y);
   std::printf("means    %.6g %.6g %.6g and %.6g %.6g %.6g\n", d.mean_a[0], d.mean_a[1], d.mean_a[2], d.mean_b[0], d.mean_b[1], d.mean_b[2]);
-  if (d.not_finite > 0) std::printf("values that are not finite: %llu\n", static_cast<unsigned long long>(d.not_finite));
+  if (d.not_finite > 0) std::printf("different: %llu values are not finite, and count for nothing above\n", static_cast<unsigned long long>(d.not_finite));
   if (parity) std::printf("noise    %s", describe(*parity).c_str());
-  if (d.identical || !parity)
+  if (d.not_finite == 0 && (d.identical || !parity))
     std::printf("%s\n", d.identical ? "identical" : "not identical (no variances to judge by: render with --aov variance)");
+}
+
+/// An image in colour; one of a single channel is grey.
+Image read_picture(const std::string& path) {
+  Image image = read_image(path);
+  const bool colour = image.find("R") && image.find("G") && image.find("B");
+  if (!colour && image.channels.size() != 1) throw InputError(path + ": has no channels R, G and B");
+  if (!colour) {
+    const std::vector<float> values = image.channels[0].values;
+    image.channels = {{"R", values}, {"G", values}, {"B", values}};
+  }
+  return image;
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 int run_compare(const CompareOptions& o) {
-  const Image a = read_image(o.a), b = read_image(o.b);
+  const Image a = read_picture(o.a), b = read_picture(o.b);
   const ImageDifference difference = compare_images(a, b);
   std::optional<ParityResult> parity;
   if (has_variance(a) && has_variance(b)) {

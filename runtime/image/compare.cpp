@@ -31,7 +31,7 @@ ImageDifference compare_images(const Image& a, const Image& b) {
   ImageDifference d;
   d.identical = identical_channels(a, b);
   const char* names[3] = {"R", "G", "B"};
-  std::size_t counted = 0;
+  std::size_t counted[3] = {};
   double sums_a[3] = {}, sums_b[3] = {};
   for (int c = 0; c < 3; c++) {
     const Image::Channel *pa = a.find(names[c]), *pb = b.find(names[c]);
@@ -52,13 +52,14 @@ ImageDifference compare_images(const Image& a, const Image& b) {
       }
       sums_a[c] += va;
       sums_b[c] += vb;
-      counted++;
+      counted[c]++;
     }
   }
-  const double pixels = std::max(1.0, static_cast<double>(a.width) * a.height), values = std::max<double>(1.0, static_cast<double>(counted));
+  const double values = std::max<double>(1.0, static_cast<double>(counted[0] + counted[1] + counted[2]));
   d.mse /= values;
   d.relative_mse /= values;
   for (int c = 0; c < 3; c++) {
+    const double pixels = std::max<double>(1.0, static_cast<double>(counted[c]));
     d.mean_a[c] = sums_a[c] / pixels;
     d.mean_b[c] = sums_b[c] / pixels;
   }

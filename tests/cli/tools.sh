@@ -44,6 +44,21 @@ expect 0 "$STOKES" render "$scene" --device reference -q -o plain.exr --spp 1
 expect 7 "$STOKES" compare plain.exr a.exr
 says out.txt 'not identical \(no variances to judge by'
 
+# Grey pictures, and what is none; two that share a value that is no number are not called identical.
+printf 'P5 3 2 255\n\001\100\200\300\010\020' >grey.pgm
+printf 'P5 3 2 255\n\001\100\200\300\010\030' >other.pgm
+expect 0 "$STOKES" compare grey.pgm grey.pgm --html grey.html
+expect 7 "$STOKES" compare grey.pgm other.pgm
+python3 -c "
+import struct
+values = [struct.pack('<f', v) for v in (0.5, float('nan'), 1, 1, 1, 1)]
+open('nan.pfm', 'wb').write(b'PF\n2 1\n-1\n' + b''.join(values))"
+if "$STOKES" info nan.pfm >/dev/null 2>&1; then
+  expect 7 "$STOKES" compare nan.pfm nan.pfm
+  says out.txt 'different: 1 values are not finite'
+  grep -q '^identical' out.txt && fail 'a picture with a NaN is called identical'
+fi
+
 # Devices, and how they lay out what they share with the host.
 expect 0 "$STOKES" devices --json
 is out.txt 'sum(d["auto"] for d in j) == 1 and all(":" in d["id"] and d["memory_bytes"] > 0 for d in j)'

@@ -41,7 +41,9 @@ TEST(Compare, AnImageEqualsItself) {
 TEST(Compare, NotFiniteValuesAreCounted) {
   Image image = flat(2, 2, 1, 1, 1);
   image.channels[1].values[3] = NAN;
-  EXPECT_EQ(compare_images(image, flat(2, 2, 1, 1, 1)).not_finite, 1u);
+  const ImageDifference d = compare_images(image, flat(2, 2, 1, 1, 1));
+  EXPECT_EQ(d.not_finite, 1u);
+  EXPECT_EQ(d.mean_a[1], 1) << "the mean is that of the values that count";
 }
 
 TEST(Compare, SizesMustMatch) { EXPECT_THROW(compare_images(flat(2, 2, 1, 1, 1), flat(2, 3, 1, 1, 1)), InputError); }
