@@ -156,6 +156,7 @@ std::string canonical_key(std::string key) {
 }
 
 JsonSource parse_json(const std::string& text, const std::string& file_name, const InputLimits& limits) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) throw SceneError(file_name, {1, 1}, "", "not JSON: the file is in UTF-16; save it as UTF-8");
   GrammarCheck check(limits);
   const bool valid = Json::sax_parse(text, &check, nlohmann::detail::input_format_t::json, true, kComments);
   if (!check.beyond.empty()) throw SceneError(file_name, {1, 1}, check.pointer(), check.beyond);

@@ -128,6 +128,7 @@ Json describe_numbers(const ReportCase& c) {
 }
 
 std::string verdict(const ReportCase& c) {
+  if (c.difference.not_finite > 0) return "Different: there are values that are not finite";
   if (c.difference.identical) return "Identical";
   if (c.parity) return c.parity->agree ? "They agree within their noise" : "They differ by more than their noise";
   return c.different ? "Different" : "Within the limits";

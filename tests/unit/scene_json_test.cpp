@@ -69,6 +69,7 @@ TEST(SceneJson, WhatIsNotJson) {
   EXPECT_THAT(error_of("{\"a\": 1/"), testing::StartsWith("scene.json:1:"));
   EXPECT_THAT(error_of("{\"a\": 1///"), testing::StartsWith("scene.json:1:"));
   EXPECT_THAT(error_of("{\"a\": 1/* "), testing::StartsWith("scene.json:1:"));
+  EXPECT_EQ(error_of(std::string("\xff\xfe{\0}\0", 6)), "scene.json:1:1: error: not JSON: the file is in UTF-16; save it as UTF-8");
   EXPECT_EQ(error_of(std::string("{\"camera\": {}}\n\0}}x", 18)), "scene.json:2:1: error: not JSON: there is a character 0");
   EXPECT_THAT(error_of(""), testing::StartsWith("scene.json:1:1: error: not JSON:"));
   EXPECT_THAT(error_of("{\"camera\": \"\xff\"}"), testing::HasSubstr("not JSON"));

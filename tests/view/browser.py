@@ -171,6 +171,16 @@ def look_at_the_rest(browser):
     browser.call("Emulation.setEmulatedMedia", features=[])
 
 
+def look_at_the_names(browser):
+    """The names of the curves stand where they cover none: at the right where an ultraviolet lamp is high at the left."""
+    plot = """((low, high) => { plotSpectrum(spectrum, 280, 780, [{values: Array.from({length: 50}, (_, i) => i > 5 && i < 9 ? low : i > 44 ? high : 0.01), colour: "rgb(0 0 0)"}], [["Name", "rgb(255 0 255)"]]);
+      const g = spectrum.getContext("2d"), d = g.getImageData(0, 0, spectrum.width, spectrum.height).data;
+      let left = 0, right = 0;
+      for (let i = 0; i < d.length; i += 4) if (d[i] > 200 && d[i + 1] < 80 && d[i + 2] > 200 && d[i + 3] > 100) i / 4 % spectrum.width < spectrum.width / 2 ? left++ : right++;
+      return left > right ? "left" : "right"; })"""
+    check("the names of curves leave an ultraviolet peak free", browser.value(plot + "(1, 0.01)") == "right" and browser.value(plot + "(0.01, 1)") == "left" and browser.value(plot + "(1, 1)") == "left")
+
+
 def look_from_the_keyboard(browser):
     browser.value("picture.focus()")
     for key in ("ArrowLeft", "+"):
@@ -194,6 +204,7 @@ def main():
         for name in SIZES:
             look(browser, name, url, scene)
         look_at_the_rest(browser)
+        look_at_the_names(browser)
         look_from_the_keyboard(browser)
         browser.wait("!save_png.disabled", 120)
         browser.value("save_png.onclick()")

@@ -6,7 +6,9 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 stokes=$1
 scene=${2:-$here/../../scenes/fluorescent_box.json}
 folder=${3:-out}
+# Debian's Python where the one in PATH does not see Debian's modules.
 python=${PYTHON:-python3}
+[ -n "${PYTHON:-}" ] || python3 -c 'import websocket' 2>/dev/null || python=/usr/bin/python3
 missing=
 command -v chromium >/dev/null || missing="chromium"
 "$python" -c 'import websocket' 2>/dev/null || missing="$missing python3-websocket"

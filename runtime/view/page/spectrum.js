@@ -52,9 +52,16 @@ function plotSpectrum(canvas, begin, end, curves, names) {
     if (curve.fill) { g.fillStyle = curve.fill; g.fill(); }
     g.strokeStyle = curve.colour; g.lineWidth = 1.5; g.stroke(); g.lineWidth = 1;
   }
-  g.textAlign = "left";
+  // The names stand at the left, unless a curve is high there (an ultraviolet lamp's) and lower at the right.
+  const high = (from, to) => Math.max(0, ...curves.flatMap(c => c.values.filter((_, i) => {
+    const nm = begin + (end - begin) * (i + 0.5) / c.values.length;
+    return nm >= from && nm <= to;
+  })));
+  const atRight = high(280, 380) > 0.6 * largest && high(680, 780) < high(280, 380);
   (names || []).forEach(([text, colour], i) => {
-    g.fillStyle = ink("panel") + "c0"; g.fillRect(left + 4, top + 2 + 14 * i, g.measureText(text).width + 4, 13);
-    g.fillStyle = colour; g.fillText(text, left + 6, top + 12 + 14 * i);
+    const wide = g.measureText(text).width, start = atRight ? width - right - wide - 6 : left + 6;
+    g.textAlign = "left";
+    g.fillStyle = ink("panel") + "c0"; g.fillRect(start - 2, top + 2 + 14 * i, wide + 4, 13);
+    g.fillStyle = colour; g.fillText(text, start, top + 12 + 14 * i);
   });
 }
