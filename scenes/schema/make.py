@@ -63,14 +63,15 @@ definitions["film"] = keyed("What is recorded beside RGB.",
 
 
 def scene():
-    named = {"allOf": [ref("material")], "required": ["name"]}
+    names = {"properties": {"name": {"minLength": 1}}}
+    named = {"allOf": [ref("material")], "required": ["name"], **names}
     return keyed(
         "A scene of Stokes.",
         {"$schema": string("This schema's place, for editors"), "scene unit": choice("The length of one scene unit", "m", "cm", "mm"),
          "camera": ref("camera"), "sampler": ref("sampler"), "integrator": ref("integrator"), "background": background, "film": ref("film"),
          "accelerator": {"description": "darts'; accepted, not used"},
-         "spectra": listed("Named spectra", {"allOf": [ref("spectrum")], "required": ["name"]}),
-         "media": listed("Named media", {"allOf": [ref("medium")], "required": ["name"]}), "materials": listed("Named materials", named),
+         "spectra": listed("Named spectra", {"allOf": [ref("spectrum")], "required": ["name"], **names}),
+         "media": listed("Named media", {"allOf": [ref("medium")], "required": ["name"], **names}), "materials": listed("Named materials", named),
          "surfaces": listed("The shapes", ref("surface"))},
         ["camera"], {"camera": {}})
 
