@@ -31,7 +31,7 @@ for which in leak thread; do sed -n "s/^$which: *//p" "$source_dir/tests/support
 export ASAN_OPTIONS=log_path=$found/log:verify_asan_link_order=0:handle_segv=0:handle_sigbus=0:intercept_tls_get_addr=0
 export UBSAN_OPTIONS=print_stacktrace=1:log_path=$found/log
 export LSAN_OPTIONS=suppressions=$found/leak.suppressions:print_suppressions=0
-export TSAN_OPTIONS=log_path=$found/log:suppressions=$found/thread.suppressions:ignore_noninstrumented_modules=1
+export TSAN_OPTIONS=log_path=$found/log:suppressions=$found/thread.suppressions:ignore_noninstrumented_modules=1:handle_segv=0:handle_sigbus=0
 # Other drivers, which are only listed, leak in libraries that are unloaded by the end and so have no name to be forgiven by.
 export OCL_ICD_VENDORS=/etc/OpenCL/vendors/pocl.icd
 run_tests "$build" "$@"

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::int64_t kMoment = 500'000'000;  // ns; nobody presses a key twice in it on second thoughts
 
-volatile std::sig_atomic_t stop_requested = 0;
+std::atomic<bool> stop_requested{false};  // any thread may run the handler
 std::atomic<std::int64_t> first_stop{0};  // ns on the monotonic clock; 0: none yet
-static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 const std::atomic<bool>* others_stop = nullptr;
 
 void install(void (*handler)(int)) {
@@ -39,7 +39,7 @@ void request_stop(int number) {
     std::signal(number, SIG_DFL);
     std::raise(number);
   }
-  stop_requested = 1;
+  stop_requested = true;
 }
 
 }  // namespace
@@ -58,6 +58,6 @@ bool is_another_stop() {
   return !first_stop.compare_exchange_strong(first, now) && now - first >= kMoment;
 }
 
-bool interrupted() { return stop_requested != 0 || (others_stop && *others_stop); }
+bool interrupted() { return stop_requested || (others_stop && *others_stop); }
 
 }  // namespace stokes
