@@ -24,18 +24,21 @@ constexpr std::size_t kLineLength = 140;
 
 struct ImportOptions {
   std::string input, output;
-  bool strict = false, force = false;
+  bool strict = false, force = false, allow_outside = false;
 };
+
+/// On one line; a file's name, which need not be UTF-8, must not end the import.
+std::string flat_text(const ImportJson& j) { return j.dump(-1, ' ', false, ImportJson::error_handler_t::replace); }
 
 /// JSON as people write it: what fits a line stands on one.
 std::string pretty(const ImportJson& j, std::size_t indent) {
-  const std::string flat = j.dump();
+  const std::string flat = flat_text(j);
   if ((!j.is_object() && !j.is_array()) || (indent > 0 && flat.size() + indent < kLineLength)) return flat;
   std::string text = j.is_object() ? "{" : "[";
   const std::string margin(indent + 2, ' ');
   bool first = true;
   for (const auto& item : j.items()) {
-    text += (first ? "\n" : ",\n") + margin + (j.is_object() ? ImportJson(item.key()).dump() + ": " : "") + pretty(item.value(), indent + 2);
+    text += (first ? "\n" : ",\n") + margin + (j.is_object() ? flat_text(item.key()) + ": " : "") + pretty(item.value(), indent + 2);
     first = false;
   }
   return text + "\n" + std::string(indent, ' ') + (j.is_object() ? "}" : "]");
@@ -56,19 +59,22 @@ void require_new(const std::string& path, bool force) {
 
 int run_import(ImportOptions o) {
   if (o.output.empty()) o.output = fs::path(o.input).stem().string() + ".json";
+  if (fs::path(o.output).extension() != ".json") throw UsageError("-o: '" + o.output + "' does not end in .json");
   require_new(o.output, o.force);
   require_writable(o.output);
   const fs::path folder = fs::path(o.output).parent_path();
   ImportedScene scene;
   try {
-    scene = read_foreign(o, {folder.string(), fs::path(o.output).stem().string()});
+    scene = read_foreign(o, {folder.string(), fs::path(o.output).stem().string(), o.allow_outside});
   } catch (const ImportError& error) {
     throw SceneError(error.what());
   }
   for (const auto& [name, mesh] : scene.meshes) {
     const std::string path = (folder / name).string();
     require_new(path, o.force);
-    fs::create_directories(fs::path(path).parent_path());
+    std::error_code made;
+    fs::create_directories(fs::path(path).parent_path(), made);
+    if (made) throw OutputError(fs::path(path).parent_path().string() + " cannot be made: " + made.message());
     write_bytes(path, obj_text(mesh));
     std::printf("%s\n", path.c_str());
   }
@@ -102,6 +108,7 @@ Command add_import(CLI::App& root) {
   app->add_option("-o,--output", o->output, "SCENE.json [the file's name with .json, in this folder]");
   app->add_flag("--strict", o->strict, "Exit with 2 when anything has no exact counterpart");
   app->add_flag("--force", o->force, "Overwrite the scene");
+  app->add_flag("--allow-outside", o->allow_outside, "Files that the scene includes may lie anywhere, not only in its folder, that one's parent and the working folder")->envname("STOKES_ALLOW_OUTSIDE");
   return {app, [o] { return run_import(*o); }};
 }
 

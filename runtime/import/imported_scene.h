@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "input/text.h"
+
 namespace stokes {
 
 /// The file cannot be imported at all. what() is one line, `file:line: error: message`.
 class ImportError : public std::runtime_error {
  public:
   ImportError(const std::string& file, int line, const std::string& message)
-      : std::runtime_error(file + ":" + std::to_string(line) + ": error: " + message) {}
+      : std::runtime_error(message_line(file + ":" + std::to_string(line) + ": error: " + message)) {}
 };
 
 /// Triangles as an OBJ file holds them: normals and uvs, where there are any, one a position.
@@ -23,7 +25,7 @@ struct ImportedMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// The whole of a file, unpacked where it is packed by gzip. Throws std::runtime_error.
+/// The whole of a regular file, unpacked where it is packed by gzip. Throws std::runtime_error, OutOfMemory.
 std::string read_text_file(const std::string& path);
 
 /// The mesh as OBJ text.
@@ -43,7 +45,7 @@ struct ImportedScene {
     std::string file;
     int line = 0;
     std::string message;
-    std::string text() const { return file + ":" + std::to_string(line) + ": note: " + message; }
+    std::string text() const { return message_line(file + ":" + std::to_string(line) + ": note: " + message); }
   };
   std::vector<Note> notes;
 
@@ -53,10 +55,20 @@ struct ImportedScene {
 /// Where the scene will be written: names of files are made relative to it, meshes are named after it.
 struct ImportTarget {
   std::string folder, stem;
+  bool allow_outside = false;  ///< files may be read from anywhere, not only where a scene's files may lie
 };
 
 /// `path`, named in a file of `source_folder`, as a file of the target's folder would name it.
 std::string relative_file(const ImportTarget& target, const std::string& source_folder, const std::string& path);
+/// Throws std::runtime_error with the reason why a file may not be read by a scene of `scene_folder`: a regular one, where a scene's files may lie.
+void require_readable(const ImportTarget& target, const std::string& scene_folder, const std::string& path);
+/// The path of the file `name`, named in a file of `source_folder`, which may be read. Throws as require_readable.
+std::string path_beside(const ImportTarget& target, const std::string& source_folder, const std::string& name);
+
+/// What one file may ask for, as files that refer to themselves or to each other can ask for any amount. Surfaces: as many as a scene's JSON can hold.
+constexpr int kDeepestImport = 100, kDeepestXml = 1000;
+constexpr std::size_t kMostIncludes = 1000, kMostBlocks = 10'000, kMostMaterials = 50'000, kMostSurfaces = 300'000;
+
 /// Whether an image stands somewhere in a material.
 bool has_image(const ImportJson& material);
 

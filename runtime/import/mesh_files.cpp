@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "import/imported_scene.h"
+#include "input/limits.h"
 
 namespace stokes {
 namespace {
@@ -59,6 +60,9 @@ class PlyReader {
   ImportedMesh read() {
     for (const Element& element : elements_)
       for (std::size_t i = 0; i < element.count && !element.properties.empty(); i++) read_row(element);
+    const std::size_t vertices = mesh_.positions.size();
+    if ((!mesh_.normals.empty() && mesh_.normals.size() != vertices) || (!mesh_.uvs.empty() && mesh_.uvs.size() != vertices))
+      throw std::runtime_error("its vertices are of two kinds");
     for (const auto& t : mesh_.triangles)
       for (const int index : t)
         if (index < 0 || static_cast<std::size_t>(index) >= mesh_.positions.size()) throw std::runtime_error("a face refers to vertex " + std::to_string(index) + ", which is not there");
@@ -116,7 +120,7 @@ class PlyReader {
     for (const Property& p : element.properties) {
       if (!p.count_type.empty()) {
         const double count = number(p.count_type);
-        if (count < 0 || count > 1e6) throw std::runtime_error("a face has " + std::to_string(count) + " corners");
+        if (!(count >= 0 && count <= 1e6)) throw std::runtime_error("a face has " + std::to_string(count) + " corners");
         std::vector<int> corners;
         for (int i = 0; i < count; i++) {
           const double corner = number(p.type);
@@ -148,12 +152,16 @@ class PlyReader {
 }  // namespace
 
 std::string read_text_file(const std::string& path) {
-  const std::unique_ptr<gzFile_s, decltype(&gzclose)> file(std::filesystem::is_directory(path) ? nullptr : gzopen(path.c_str(), "rb"), &gzclose);
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(path, error);
+  const std::unique_ptr<gzFile_s, decltype(&gzclose)> file(regular ? gzopen(path.c_str(), "rb") : nullptr, &gzclose);
   if (!file) throw std::runtime_error("it cannot be read");
   std::string text;
   std::vector<char> buffer(1 << 18);
   int count = 0;
   while ((count = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
+    // A packed file may hold a thousand times its size; a string that grows is there twice.
+    if (text.size() + static_cast<std::size_t>(count) > text.capacity()) require_memory({}, 4 * text.capacity(), path);
     text.append(buffer.data(), static_cast<std::size_t>(count));
     if (text.size() > kMostBytes) throw std::runtime_error("it is larger than 4 GiB");
   }
@@ -163,7 +171,7 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
-bool has_image(const ImportJson& material) { return material.dump().find("\"image\"") != std::string::npos; }
+bool has_image(const ImportJson& material) { return material.dump(-1, ' ', false, ImportJson::error_handler_t::replace).find("\"image\"") != std::string::npos; }
 
 ImportedMesh read_ply(const std::string& path) { return PlyReader(path).read(); }
 
@@ -184,13 +192,6 @@ std::string obj_text(const ImportedMesh& mesh) {
     out << '\n';
   }
   return out.str();
-}
-
-std::string relative_file(const ImportTarget& target, const std::string& source_folder, const std::string& path) {
-  namespace fs = std::filesystem;
-  const fs::path absolute = fs::absolute(fs::path(source_folder) / path).lexically_normal();
-  const fs::path relative = absolute.lexically_relative(fs::absolute(target.folder.empty() ? "." : target.folder).lexically_normal());
-  return (relative.empty() ? absolute : relative).generic_string();
 }
 
 }  // namespace stokes

@@ -35,12 +35,14 @@ class MitsubaImport {
   ImportJson mesh_of(const Node& shape, const Affine& to_world, ImportJson& common);
   ImportJson instance_of(const Node& shape);
   void read_group(const Node& shape);
+  void count_surfaces(const Node& shape, std::size_t more);
   void read_lamp(const Node& shape, ImportJson& common);
   Vec3d center_of(const Node& center);
   bool is_textured(const ImportJson& material) const;
 
   // mitsuba_materials.cpp
   ImportJson material_of(const Node& bsdf);
+  ImportJson inner_material(const Node& bsdf);
   ImportJson conductor_of(const Node& bsdf, bool rough);
   ImportJson dielectric_of(const Node& bsdf, bool rough);
   ImportJson other_material_of(const Node& bsdf, const std::string& type);
@@ -69,6 +71,9 @@ class MitsubaImport {
   std::set<std::string> materials_, media_;   // names that the scene has by now
   std::map<std::string, ImportJson> groups_;  // surfaces, by the shape group's id
   std::string camera_medium_;
+  int material_depth_ = 0;  // of BSDFs in BSDFs
+  std::size_t material_count_ = 0, surface_count_ = 0;
+  std::map<std::string, std::size_t> group_sizes_;  // in surfaces
 };
 
 }  // namespace stokes

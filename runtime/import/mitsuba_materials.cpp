@@ -79,12 +79,22 @@ ImportJson MitsubaImport::dielectric_of(const Node& bsdf, bool rough) {
   return j;
 }
 
+// A BSDF within another, by a reference perhaps, which may lead in a circle.
+ImportJson MitsubaImport::inner_material(const Node& bsdf) {
+  if (material_depth_ >= kDeepestImport) xml_.fail(bsdf, "BSDFs lie in each other more than " + std::to_string(kDeepestImport) + " deep, or in a circle");
+  material_depth_++;
+  ImportJson material = material_of(bsdf);
+  material_depth_--;
+  return material;
+}
+
 ImportJson MitsubaImport::material_of(const Node& given) {
   if (std::strcmp(given.name(), "ref") == 0) {
     xml_.use(given);
     const std::string id = xml_.attribute(given, "id");
     if (materials_.count(id)) return id;
   }
+  if (++material_count_ > kMostMaterials) xml_.fail(given, "more than " + std::to_string(kMostMaterials) + " BSDFs, counted as often as they are referred to");
   const Node bsdf = follow(given);
   xml_.use(bsdf);
   const std::string type = bsdf.attribute("type").value();
@@ -96,12 +106,12 @@ ImportJson MitsubaImport::material_of(const Node& given) {
   for (const Node& c : bsdf.children())
     if (std::strcmp(c.name(), "bsdf") == 0 || (std::strcmp(c.name(), "ref") == 0 && std::strcmp(follow(c).name(), "bsdf") == 0)) inner.push_back(c);
   // Opaque materials reflect on both sides here anyway.
-  if (type == "twosided" && inner.size() == 1) return material_of(inner[0]);
+  if (type == "twosided" && inner.size() == 1) return inner_material(inner[0]);
   if (type == "blendbsdf" && inner.size() == 2)
-    return {{"type", "blend"}, {"a", material_of(inner[0])}, {"b", material_of(inner[1])}, {"amount", spectrum_child(bsdf, "weight", Role::Reflectance, 0.5)}};
+    return {{"type", "blend"}, {"a", inner_material(inner[0])}, {"b", inner_material(inner[1])}, {"amount", spectrum_child(bsdf, "weight", Role::Reflectance, 0.5)}};
   if ((type == "bumpmap" || type == "normalmap" || type == "mask") && inner.size() == 1) {
     note(bsdf, "a BSDF of type \"" + type + "\" has no counterpart here: what it lies on is taken");
-    return material_of(inner[0]);
+    return inner_material(inner[0]);
   }
   return other_material_of(bsdf, type);
 }

@@ -25,7 +25,7 @@ std::optional<double> turn_about_y(const Affine& a) {
 }  // namespace
 
 MitsubaImport::MitsubaImport(const std::string& path, ImportTarget target)
-    : target_(std::move(target)), xml_(path) {}
+    : target_(std::move(target)), xml_(path, target_) {}
 
 // One step of a transform.
 Affine MitsubaImport::step_of(const Node& c) {

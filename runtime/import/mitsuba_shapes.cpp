@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "import/mitsuba_import.h"
+#include "input/limits.h"
 
 namespace stokes {
 namespace {
@@ -40,8 +41,11 @@ ImportJson MitsubaImport::mesh_of(const Node& shape, const Affine& to_world, Imp
   if (!filename) xml_.fail(shape, "the mesh names no file");
   const std::string value = xml_.attribute(filename, "value"), file = xml_.file_named(filename, value);
   ImportedMesh mesh;
+  xml_.require_readable(filename, file);
   try {
     mesh = ply ? read_ply(file) : read_obj_mesh(file);
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const std::runtime_error& error) {
     xml_.fail(filename, value + " cannot be read as " + (ply ? "PLY: " : "OBJ: ") + error.what());
   }
@@ -129,6 +133,7 @@ void MitsubaImport::read_lamp(const Node& shape, ImportJson& common) {
 ImportJson MitsubaImport::surface_of(const Node& shape) {
   xml_.use(shape);
   if (std::strcmp(shape.attribute("type").value(), "instance") == 0) return instance_of(shape);
+  count_surfaces(shape, 1);
   ImportJson common = ImportJson::object();
   common[kPlaceKey] = place_of(xml_.path_of(shape), xml_.line(shape));
   if (shape.attribute("id")) common["name"] = xml_.attribute(shape, "id");
@@ -151,9 +156,18 @@ ImportJson MitsubaImport::surface_of(const Node& shape) {
 
 void MitsubaImport::read_group(const Node& shape) {
   xml_.use(shape);
-  ImportJson& group = groups_[xml_.attribute(shape, "id")] = ImportJson::array();
+  const std::string id = xml_.attribute(shape, "id");
+  ImportJson& group = groups_[id] = ImportJson::array();
+  const std::size_t before = surface_count_;
   for (const Node& child : shape.children("shape"))
     if (ImportJson surface = surface_of(child); !surface.is_null()) group.push_back(surface);
+  group_sizes_[id] = surface_count_ - before;
+}
+
+// Instances of groups of instances would multiply without end.
+void MitsubaImport::count_surfaces(const Node& shape, std::size_t more) {
+  surface_count_ += more;
+  if (surface_count_ > kMostSurfaces) xml_.fail(shape, "more than " + std::to_string(kMostSurfaces) + " surfaces, those of instances included");
 }
 
 ImportJson MitsubaImport::instance_of(const Node& shape) {
@@ -162,6 +176,7 @@ ImportJson MitsubaImport::instance_of(const Node& shape) {
     const auto group = groups_.find(xml_.attribute(c, "id"));
     if (group == groups_.end()) xml_.fail(c, "no shape group before this has the id \"" + xml_.attribute(c, "id") + "\"");
     if (group->second.empty()) return nullptr;
+    count_surfaces(shape, group_sizes_[group->first]);
     ImportJson j = {{"type", "group"}, {"children", group->second}};
     if (const ImportJson t = transform_json(transform_of(shape, "to_world")); !t.is_null()) j["transform"] = t;
     return j;

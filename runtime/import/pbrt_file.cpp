@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "input/limits.h"
+#include "input/text.h"
 #include "scene/csv.h"
 
 namespace stokes {
@@ -54,6 +56,7 @@ std::vector<Token> tokens_of(const std::string& path, const std::string& text) {
       std::string word;
       i = string_at(text, i + 1, word);
       if (i == std::string::npos) throw ImportError(path, line, "a string has no end, or an unknown escape");
+      if (find_invalid_utf8(word) != std::string::npos) throw ImportError(path, line, "a string is not UTF-8");
       tokens.push_back({word, line, true});
     } else if (c == '[' || c == ']') {
       tokens.push_back({std::string(1, c), line, false});
@@ -72,12 +75,14 @@ class PbrtReader {
   std::vector<PbrtDirective> all;
 
   /// Names of files are relative to the scene's folder, also in files that it includes from elsewhere.
-  explicit PbrtReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  PbrtReader(const ImportTarget& target, std::filesystem::path folder) : target_(target), folder_(std::move(folder)) {}
 
   void read(const std::string& path, int depth) {
     std::string text;
     try {
       text = read_text_file(path);
+    } catch (const OutOfMemory&) {
+      throw;
     } catch (const std::runtime_error& error) {
       throw ImportError(path, 1, std::string("the file cannot be read: ") + error.what());
     }
@@ -93,9 +98,9 @@ class PbrtReader {
       i = arguments(path, tokens, i + 1, directive);
       if (directive.name == "Include" || directive.name == "Import") {
         if (directive.words.size() != 1) throw ImportError(path, directive.line, directive.name + " needs the name of a file");
-        if (depth == kMaxIncludes) throw ImportError(path, directive.line, "files include each other without end");
-        const std::string included = (folder_ / directive.words[0]).string();
-        if (!std::filesystem::exists(included)) throw ImportError(path, directive.line, "there is no file \"" + directive.words[0] + "\"");
+        // Two includes of the next file in each of thirty files are a thousand million.
+        if (depth == kMaxIncludes || ++includes_ > kMostIncludes) throw ImportError(path, directive.line, "files include each other without end, or too often");
+        const std::string included = included_by(directive);
         // What an imported file sets ends with it.
         const bool bracket = directive.name == "Import";
         if (bracket) all.push_back(named(directive, "AttributeBegin"));
@@ -108,7 +113,17 @@ class PbrtReader {
   }
 
  private:
+  const ImportTarget& target_;
   std::filesystem::path folder_;
+  std::size_t includes_ = 0;
+
+  std::string included_by(const PbrtDirective& directive) const {
+    try {
+      return path_beside(target_, folder_.string(), directive.words[0]);
+    } catch (const std::runtime_error& error) {
+      throw ImportError(directive.file, directive.line, "the file \"" + directive.words[0] + "\" cannot be read: " + error.what());
+    }
+  }
 
   static PbrtDirective named(const PbrtDirective& at, const char* name) {
     PbrtDirective directive;
@@ -191,8 +206,8 @@ std::string PbrtDirective::text(const std::string& wanted, const std::string& fa
   return p && p->words.size() == 1 ? p->words[0] : fallback;
 }
 
-std::vector<PbrtDirective> read_pbrt(const std::string& path) {
-  PbrtReader reader(std::filesystem::path(path).parent_path());
+std::vector<PbrtDirective> read_pbrt(const std::string& path, const ImportTarget& target) {
+  PbrtReader reader(target, std::filesystem::path(path).parent_path());
   reader.read(path, 0);
   return std::move(reader.all);
 }

@@ -31,7 +31,7 @@ struct PbrtDirective {
   std::string text(const std::string& name, const std::string& fallback) const;
 };
 
-/// Reads the file and those it includes. Throws ImportError.
-std::vector<PbrtDirective> read_pbrt(const std::string& path);
+/// Reads the file and those it includes, from where the target lets them be. Throws ImportError, OutOfMemory.
+std::vector<PbrtDirective> read_pbrt(const std::string& path, const ImportTarget& target);
 
 }  // namespace stokes

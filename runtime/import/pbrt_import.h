@@ -47,6 +47,7 @@ class PbrtImport {
 
   // pbrt_shapes.cpp
   bool apply_object(const PbrtDirective& d);
+  void count_surfaces(const PbrtDirective& d, std::size_t more);
   void apply_shape(const PbrtDirective& d);
   ImportJson shape_of(const PbrtDirective& d, const std::string& type);
   ImportJson mesh_of(const std::string& name, ImportedMesh mesh);
@@ -80,6 +81,7 @@ class PbrtImport {
   std::map<std::string, Affine> coordinate_systems_;
   std::map<std::string, ImportJson> objects_;
   std::string object_;  // that is being defined; empty: none
+  std::size_t surface_count_ = 0;
   std::string camera_medium_;
   std::optional<Affine> world_to_camera_;
   ImportJson camera_ = ImportJson::object();

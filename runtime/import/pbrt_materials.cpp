@@ -1,12 +1,12 @@
 // pbrt's spectra, textures, materials and media to ours.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
 #include "import/pbrt_import.h"
+#include "input/limits.h"
+#include "input/read_file.h"
 #include "scene/csv.h"
 #include "spectral/tabulate.h"
 
@@ -22,8 +22,8 @@ double luminance_of(const Curve& curve) {
 }
 
 // Numbers in pairs, with comments; empty where the file is none such.
-Curve read_spd(const std::filesystem::path& path) {
-  std::ifstream file(path);
+Curve parse_spd(const std::string& text) {
+  std::istringstream file(text);
   Curve curve;
   std::vector<double> all;
   for (std::string line; std::getline(file, line);) {
@@ -106,9 +106,17 @@ ImportJson PbrtImport::named_spectrum_of(const PbrtDirective& d, const PbrtParam
     out_.note(d.file, p.line, "the dispersion of " + word + " was left out: its index at 588 nm is taken");
     return *index;
   }
-  const Curve curve = read_spd(std::filesystem::path(folder_) / word);
+  Curve curve;
+  std::string reason = "it holds no samples";
+  try {
+    curve = parse_spd(read_regular_file(path_beside(target_, folder_, word), InputLimits{}.table_bytes));
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
   if (!curve.first.empty()) return as_curve({{"type", "file"}, {"filename", relative_file(target_, folder_, word)}}, curve, d, p, role);
-  out_.note(d.file, p.line, "\"spectrum " + p.name + "\": nothing is known of \"" + word + "\", and no such file holds samples: a default is taken");
+  out_.note(d.file, p.line, "\"spectrum " + p.name + "\": nothing is known of \"" + word + "\", and as a file " + reason + ": a default is taken");
   return fallback;
 }
 

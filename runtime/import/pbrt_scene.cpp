@@ -181,6 +181,7 @@ bool PbrtImport::apply_light(const PbrtDirective& d) {
 bool PbrtImport::apply_block(const PbrtDirective& d) {
   const bool attribute = d.name == "AttributeBegin";
   if (attribute || d.name == "TransformBegin") {
+    if (stack_.size() >= kMostBlocks) throw ImportError(d.file, d.line, d.name + "s lie in each other more than " + std::to_string(kMostBlocks) + " deep");
     stack_.emplace_back(state_, attribute);
   } else if (d.name == "AttributeEnd" || d.name == "TransformEnd") {
     if (stack_.empty()) throw ImportError(d.file, d.line, d.name + " without its beginning");
@@ -280,7 +281,7 @@ void PbrtImport::collect_names(const std::vector<PbrtDirective>& directives) {
 }
 
 ImportedScene PbrtImport::run() {
-  const std::vector<PbrtDirective> directives = read_pbrt(path_);
+  const std::vector<PbrtDirective> directives = read_pbrt(path_, target_);
   bool world = false;
   for (const PbrtDirective& d : directives) world |= d.name == "WorldBegin";
   if (!world) throw ImportError(path_, 1, "this is no pbrt scene: it has no WorldBegin");

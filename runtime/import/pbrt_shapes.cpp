@@ -4,6 +4,7 @@
 
 #include "import/media_around.h"
 #include "import/pbrt_import.h"
+#include "input/limits.h"
 
 namespace stokes {
 namespace {
@@ -98,8 +99,10 @@ ImportJson PbrtImport::shape_of(const PbrtDirective& d, const std::string& type)
   const std::string file = d.text("filename", "");
   if (file.empty()) throw ImportError(d.file, d.line, "the plymesh names no file");
   try {
-    return mesh_of(std::filesystem::path(file).stem().string(), read_ply((std::filesystem::path(folder_) / file).string()));
+    return mesh_of(std::filesystem::path(file).stem().string(), read_ply(path_beside(target_, folder_, file)));
   } catch (const ImportError&) {
+    throw;
+  } catch (const OutOfMemory&) {
     throw;
   } catch (const std::runtime_error& error) {
     throw ImportError(d.file, d.line, file + " cannot be read as PLY: " + error.what());
@@ -129,7 +132,13 @@ void PbrtImport::apply_shape(const PbrtDirective& d) {
   surface[kPlaceKey] = place_of(d.file, d.line);
   set_media(d, surface);
   if (state_.reverse) surface["flip"] = true;
+  count_surfaces(d, 1);
   (object_.empty() ? out_.json["surfaces"] : objects_[object_]).push_back(surface);
+}
+
+void PbrtImport::count_surfaces(const PbrtDirective& d, std::size_t more) {
+  surface_count_ += more;
+  if (surface_count_ > kMostSurfaces) throw ImportError(d.file, d.line, "more than " + std::to_string(kMostSurfaces) + " surfaces, those of instances included");
 }
 
 bool PbrtImport::apply_object(const PbrtDirective& d) {
@@ -149,6 +158,7 @@ bool PbrtImport::apply_object(const PbrtDirective& d) {
     const auto it = objects_.find(name);
     if (it == objects_.end()) throw ImportError(d.file, d.line, "no object is called \"" + name + "\"");
     if (it->second.empty()) return true;
+    count_surfaces(d, it->second.size());
     ImportJson group = {{"type", "group"}, {"children", it->second}};
     if (const ImportJson t = transform_json(state_.transform); !t.is_null()) group["transform"] = t;
     out_.json["surfaces"].push_back(group);

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "input/limits.h"
+#include "input/read_file.h"
+#include "input/text.h"
 #include "scene/csv.h"
 
 namespace stokes {
@@ -24,25 +26,41 @@ int line_at(const std::string& content, std::ptrdiff_t offset) {
   return static_cast<int>(std::count(content.begin(), end, '\n')) + 1;
 }
 
+/// Whether elements lie in each other deeper than the walks over them may go.
+bool is_too_deep(pugi::xml_document& document) {
+  struct Walk : pugi::xml_tree_walker {
+    bool for_each(pugi::xml_node&) override { return depth() < kDeepestXml; }
+  } walk;
+  return !document.traverse(walk);
+}
+
 }  // namespace
 
-XmlScene::XmlScene(const std::string& path) { collect(read_file(path, {}), 0); }
+XmlScene::XmlScene(const std::string& path, const ImportTarget& target) : target_(target) { collect(read_file(path, {}), 0); }
 
 // The file's root element. `from` is the <include> that names it, if one does.
 XmlScene::Node XmlScene::read_file(const std::string& path, const Node& from) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  if (!stream || fs::is_directory(path)) {
-    if (from) fail(from, path + " cannot be read");
-    throw ImportError(path, 1, "the file cannot be read");
+  std::string text;
+  try {
+    text = read_regular_file(path, InputLimits{}.scene_bytes);
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (from) fail(from, path + " cannot be read: " + error.what());
+    throw ImportError(path, 1, std::string("the file cannot be read: ") + error.what());
   }
-  text << stream.rdbuf();
+  if (files_.size() > kMostIncludes) fail(from, "files include each other too often");
   files_.push_back(std::make_unique<File>());
   File& file = *files_.back();
   file.path = path;
-  file.content = text.str();
+  file.content = std::move(text);
   const pugi::xml_parse_result result = file.document.load_buffer(file.content.data(), file.content.size());
   if (!result) throw ImportError(path, line_at(file.content, result.offset), std::string("not XML: ") + result.description());
+  // Other encodings were converted, this one was believed.
+  const std::size_t invalid = result.encoding == pugi::encoding_utf8 ? find_invalid_utf8(file.content) : std::string::npos;
+  if (invalid != std::string::npos)
+    throw ImportError(path, line_at(file.content, static_cast<std::ptrdiff_t>(invalid)), "the text is not UTF-8, as XML is where it names no encoding");
+  if (is_too_deep(file.document)) throw ImportError(path, 1, "elements lie in each other more than " + std::to_string(kDeepestXml) + " deep");
   const Node root = file.document.document_element();
   if (!is(root, "scene")) throw ImportError(path, line(root), "the outermost element is no <scene>");
   return root;
@@ -67,7 +85,9 @@ void XmlScene::collect(const Node& root, int depth) {
     } else if (is(node, "include")) {
       use(node);
       if (depth == kMaxIncludes) fail(node, "files include each other without end");
-      collect(read_file(file_named(node, attribute(node, "filename")), node), depth + 1);
+      const std::string path = file_named(node, attribute(node, "filename"));
+      require_readable(node, path);
+      collect(read_file(path, node), depth + 1);
     } else {
       elements_.push_back(node);
       collect_ids(node);
@@ -96,6 +116,14 @@ std::string XmlScene::file_named(const Node& node, const std::string& path) cons
   for (const fs::path& folder : folders)
     if (fs::exists(folder / path, error)) return (folder / path).string();
   return (folders.front() / path).string();
+}
+
+void XmlScene::require_readable(const Node& node, const std::string& path) const {
+  try {
+    stokes::require_readable(target_, fs::path(files_.front()->path).parent_path().string(), path);
+  } catch (const std::runtime_error& error) {
+    fail(node, path + " cannot be read: " + error.what());
+  }
 }
 
 const XmlScene::File& XmlScene::file_of(const Node& node) const {

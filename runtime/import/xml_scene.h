@@ -16,8 +16,8 @@ class XmlScene {
  public:
   using Node = pugi::xml_node;
 
-  /// Throws ImportError.
-  explicit XmlScene(const std::string& path);
+  /// Throws ImportError, OutOfMemory.
+  XmlScene(const std::string& path, const ImportTarget& target);
 
   Node root() const { return files_.front()->document.document_element(); }
   /// The scene's elements, those of included files in the place of their <include>.
@@ -28,6 +28,8 @@ class XmlScene {
   std::string file_named(const Node& node, const std::string& path) const;
 
   const std::string& path_of(const Node& node) const { return file_of(node).path; }
+  /// Fails where `path` must not be read: no regular file, or none of a place where a scene's files may lie.
+  void require_readable(const Node& node, const std::string& path) const;
   int line(const Node& node) const;
   [[noreturn]] void fail(const Node& node, const std::string& message) const { throw ImportError(path_of(node), line(node), message); }
 
@@ -59,6 +61,7 @@ class XmlScene {
   void collect_ids(const Node& node);
   const File& file_of(const Node& node) const;
 
+  ImportTarget target_;
   std::vector<std::unique_ptr<File>> files_;  // the scene's first
   std::vector<Node> elements_;
   std::vector<std::string> folders_;  // of <path>

@@ -99,5 +99,63 @@ sed 's/^4 0 1 2 3/4 0 1 2 7/' "$SOURCES/corner.ply" >corner.ply
 printf '<scene version="3.0.0">\n<shape type="ply"><string name="filename" value="corner.ply"/></shape></scene>\n' >ply.xml
 expect 2 "$STOKES" import ply.xml -o x.json
 says err.txt '^ply.xml:2: error: corner.ply cannot be read as PLY: a face refers to vertex 7'
-[ -e x.json ] && fail 'a refused import left a scene'
+
+# Files of strangers: each is refused within moments, at its place, with no crash, no endless reading and no memory to speak of.
+mkdir hostile && cd hostile || exit 1
+refuse() {
+  pattern=$1
+  shift
+  expect 2 timeout 30 "$STOKES" import "$@" -o x.json
+  says err.txt "$pattern"
+}
+# mitsuba NAME BODY, pbrt NAME BODY: a scene of these elements or directives.
+mitsuba() { printf '<scene version="3.0.0">\n%s</scene>\n' "$2" >"$1.xml"; }
+pbrt() { printf 'WorldBegin\n%s\n' "$2" >"$1.pbrt"; }
+mitsuba circle '<bsdf type="twosided" id="a"><ref id="b"/></bsdf><bsdf type="twosided" id="b"><ref id="a"/></bsdf>'
+refuse '^circle.xml:2: error: BSDFs lie in each other' circle.xml
+python3 -c "print('<scene version=\"3.0.0\"><shape type=\"sphere\">' + '<bsdf type=\"twosided\">' * 100000 + '</bsdf>' * 100000 + '</shape></scene>')" >deep.xml
+refuse '^deep.xml:1: error: elements lie in each other' deep.xml
+printf '<scene version="3.0.0"><shape type="sphere" id="\377"/></scene>' >bytes.xml
+refuse '^bytes.xml:1: error: .*not UTF-8' bytes.xml
+mitsuba colour '<shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="#zz0000"/></bsdf></shape>'
+refuse '^colour.xml:2: error: expected #rrggbb' colour.xml
+printf 'WorldBegin\nNamedMaterial "\377"\n' >bytes.pbrt
+refuse '^bytes.pbrt:2: error: a string is not UTF-8' bytes.pbrt
+mkfifo pipe
+printf 'Include "pipe"\n' >pipe.pbrt
+refuse '^pipe.pbrt:1: error: the file "pipe" cannot be read: it is no regular file' pipe.pbrt
+mitsuba pipe '<shape type="ply"><string name="filename" value="pipe"/></shape>'
+refuse '^pipe.xml:2: error: .*no regular file' pipe.xml
+# Twenty groups, each of two instances of the one before.
+{
+  echo '<scene version="3.0.0"><shape type="shapegroup" id="g0"><shape type="sphere"/></shape>'
+  for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    instance="<shape type=\"instance\"><ref id=\"g$((i - 1))\"/></shape>"
+    echo "<shape type=\"shapegroup\" id=\"g$i\">$instance$instance</shape>"
+  done
+  echo '</scene>'
+} >groups.xml
+refuse '^groups.xml:[0-9]+: error: more than [0-9]+ surfaces' groups.xml
+pbrt outside 'Include "/dev/zero"'
+refuse '^outside.pbrt:2: error: .*--allow-outside' outside.pbrt
+for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do printf 'Include "%s.pbrt"\nInclude "%s.pbrt"\n' $((i + 1)) $((i + 1)) >$i.pbrt; done
+echo Identity >21.pbrt
+refuse 'error: files include each other without end, or too often' 1.pbrt
+{ echo WorldBegin && echo 'ObjectBegin "o"' && yes 'Shape "sphere"' | head -1000 && echo ObjectEnd && yes 'ObjectInstance "o"' | head -100000; } >many.pbrt
+refuse '^many.pbrt:[0-9]+: error: more than [0-9]+ surfaces' many.pbrt
+printf 'ply\nformat ascii 1.0\nelement vertex 99999999999\nelement face 99999999999\nend_header\n' >empty.ply
+mitsuba ply '<shape type="ply"><string name="filename" value="empty.ply"/></shape>'
+refuse '^ply.xml:2: error: empty.ply cannot be read as PLY: it holds no faces' ply.xml
+expect 64 "$STOKES" import many.pbrt -o many.pbrt --force
+says err.txt 'does not end in .json'
+pbrt ball 'Shape "sphere"'
+expect 0 "$STOKES" import ball.pbrt -o ball.json
+pbrt mesh 'Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ]'
+touch taken_meshes
+expect 5 "$STOKES" import mesh.pbrt -o taken.json
+says err.txt 'taken_meshes cannot be made'
+cd ..
+for left in x.json hostile/x.json; do
+  [ -e $left ] && fail 'a refused import left a scene'
+done
 finish

@@ -291,7 +291,7 @@ TEST_F(ImportPbrt, StringsHaveEscapesAndFilesMayBePacked) {
   const ImportedScene scene = pbrt("Camera \"perspective\" WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a \\\"b.exr\" Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"");
   EXPECT_EQ(surface_of(scene)["material"]["albedo"]["filename"], "a \"b.exr");
   EXPECT_EQ(pbrt_error("WorldBegin\nShape \"sp\\x\""), "2: error: a string has no end, or an unknown escape");
-  EXPECT_EQ(pbrt_error("WorldBegin\nInclude \"gone.pbrt\""), "2: error: there is no file \"gone.pbrt\"");
+  EXPECT_EQ(pbrt_error("WorldBegin\nInclude \"gone.pbrt\""), "2: error: the file \"gone.pbrt\" cannot be read: there is no such file");
   EXPECT_THAT(pbrt_error("WorldBegin\nInclude \"scene.pbrt\""), testing::StartsWith("2: error: files include each other"));
 }
 
