@@ -16,8 +16,8 @@ namespace stokes {
 namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-constexpr double kNothing = 1e-9;      // a distance that counts as none
-constexpr std::size_t kPlaces = 6;     // of a surface that are looked at
+constexpr double kNothing = 1e-9;   // a distance that counts as none
+constexpr std::size_t kPlaces = 6;  // of a surface that are looked at
 const Vec3d kDirections[] = {{0.36, 0.48, 0.8}, {-0.64, 0.6, -0.48}, {0.6, -0.64, -0.48}, {-0.48, -0.6, 0.64}};
 
 Affine affine_of(const ImportJson& surface) {
@@ -56,7 +56,8 @@ struct Solid {
   std::vector<Vec3d> places() const {
     std::vector<Vec3d> all;
     if (radius > 0)
-      for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}, Vec3d{0, 0, 1}, Vec3d{0, 0, -1}}) all.push_back(axis * radius);
+      for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}, Vec3d{0, 0, 1}, Vec3d{0, 0, -1}})
+        all.push_back(axis * radius);
     const std::size_t step = std::max<std::size_t>(1, triangles.size() / kPlaces);
     for (std::size_t i = 0; i < triangles.size(); i += step) all.push_back((triangles[i].a + triangles[i].b + triangles[i].c) * (1.0 / 3));
     for (Vec3d& p : all) p = to_world.point(p);
@@ -91,7 +92,8 @@ void meet_sphere(double radius, Vec3d o, Vec3d d, Hit& hit) {
 
 bool misses_box(const Solid& s, Vec3d o, Vec3d d) {
   double near = 0, far = kEndless;
-  for (const auto& [at, along, low, high] : {std::tuple{o.x, d.x, s.low.x, s.high.x}, std::tuple{o.y, d.y, s.low.y, s.high.y}, std::tuple{o.z, d.z, s.low.z, s.high.z}}) {
+  for (const auto& [at, along, low, high] :
+       {std::tuple{o.x, d.x, s.low.x, s.high.x}, std::tuple{o.y, d.y, s.low.y, s.high.y}, std::tuple{o.z, d.z, s.low.z, s.high.z}}) {
     const double one = (low - at) / along, other = (high - at) / along;
     near = std::max(near, std::min(one, other));
     far = std::min(far, std::max(one, other));
@@ -209,12 +211,17 @@ void name_media_around(ImportedScene& scene, const ImportTarget& target, const s
     ImportJson medium;
     if (votes.empty() && !camera_medium.empty()) {
       medium = camera_medium;
-      note("a shape without a medium interface leaves rays in their medium: it is taken to stand in the camera's, \"" + camera_medium + "\"");
+      note("a shape without a medium interface leaves rays in their medium: it is taken to stand in the camera's, \"" + camera_medium +
+           "\"");
     } else if (!votes.empty()) {
       const auto most = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       medium = ImportJson::parse(most->first);
-      const std::string name = medium.is_string() ? "\"" + medium.get<std::string>() + "\"" : medium.is_null() ? "vacuum" : "the medium most of it is in";
-      if (votes.size() > 1) note("a shape without a medium interface leaves rays in their medium, and this one stands in several: it is taken to stand in " + name);
+      const std::string name = medium.is_string() ? "\"" + medium.get<std::string>() + "\""
+                               : medium.is_null() ? "vacuum"
+                                                  : "the medium most of it is in";
+      if (votes.size() > 1)
+        note("a shape without a medium interface leaves rays in their medium, and this one stands in several: it is taken to stand in " +
+             name);
     }
     if (medium.is_null()) return;
     surface["inside"] = medium;

@@ -27,9 +27,11 @@ bool MitsubaImport::is_textured(const ImportJson& material) const {
 ImportJson MitsubaImport::cube_of(const Affine& to_world) const {
   ImportJson group = {{"type", "group"}, {"children", ImportJson::array()}};
   if (const ImportJson t = transform_json(to_world); !t.is_null()) group["transform"] = t;
-  const std::array<std::array<int, 3>, 3> frames[6] = {{{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}}, {{{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}}}, {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},
-                                                       {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}},  {{{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}}}, {{{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}}}};
-  for (const auto& [x, y, z] : frames) group["children"].push_back({{"type", "quad"}, {"size", 2}, {"transform", {{"o", z}, {"x", x}, {"y", y}, {"z", z}}}});
+  const std::array<std::array<int, 3>, 3> frames[6] = {{{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}}, {{{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
+                                                       {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},   {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}},
+                                                       {{{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}}}, {{{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}}}};
+  for (const auto& [x, y, z] : frames)
+    group["children"].push_back({{"type", "quad"}, {"size", 2}, {"transform", {{"o", z}, {"x", x}, {"y", y}, {"z", z}}}});
   return group;
 }
 
@@ -63,7 +65,8 @@ ImportJson MitsubaImport::mesh_of(const Node& shape, const Affine& to_world, Imp
   }
   ImportJson j = {{"type", "mesh"}};
   if (changed) {
-    j["filename"] = target_.stem + "_meshes/" + std::filesystem::path(value).stem().string() + "_" + std::to_string(out_.meshes.size()) + ".obj";
+    j["filename"] =
+        target_.stem + "_meshes/" + std::filesystem::path(value).stem().string() + "_" + std::to_string(out_.meshes.size()) + ".obj";
     out_.meshes.emplace_back(j["filename"], std::move(mesh));
   } else {
     j["filename"] = relative_file(target_, "", file);
@@ -124,7 +127,8 @@ void MitsubaImport::read_lamp(const Node& shape, ImportJson& common) {
     common["emit"] = emit;
     return;
   }
-  if (common["material"] != ImportJson{{"type", "lambertian"}, {"albedo", 0.0}}) note(shape, "a lamp by an image reflects nothing here: its BSDF was left out");
+  if (common["material"] != ImportJson{{"type", "lambertian"}, {"albedo", 0.0}})
+    note(shape, "a lamp by an image reflects nothing here: its BSDF was left out");
   note(shape, "a lamp by an image has the white of D65 here, and of equal energy there");
   common["material"] = {{"type", "diffuse_light"}, {"emit", emit}};
 }

@@ -67,12 +67,16 @@ ImportJson MitsubaImport::rgb_of(const Node& node) {
 }
 
 // Mitsuba's curves are 0 outside their samples; an index must not be.
-ImportJson MitsubaImport::sampled_of(const Node& node, const std::vector<double>& wavelengths, const std::vector<double>& values, Role role) {
-  if (wavelengths.size() != values.size() || wavelengths.size() < 2) xml_.fail(node, "a spectrum needs two samples at least, and a value for each wavelength");
+ImportJson MitsubaImport::sampled_of(const Node& node, const std::vector<double>& wavelengths, const std::vector<double>& values,
+                                     Role role) {
+  if (wavelengths.size() != values.size() || wavelengths.size() < 2)
+    xml_.fail(node, "a spectrum needs two samples at least, and a value for each wavelength");
   if (!std::is_sorted(wavelengths.begin(), wavelengths.end())) xml_.fail(node, "the wavelengths of a spectrum do not increase");
   ImportJson j = {{"type", "sampled"}, {"wavelengths", wavelengths}, {"values", values}};
-  if (role != Role::Index) j["extrapolate"] = "zero";
-  else if (wavelengths.front() > kFilmBegin || wavelengths.back() < kFilmEnd) note(node, kHeld);
+  if (role != Role::Index)
+    j["extrapolate"] = "zero";
+  else if (wavelengths.front() > kFilmBegin || wavelengths.back() < kFilmEnd)
+    note(node, kHeld);
   return j;
 }
 
@@ -86,7 +90,8 @@ ImportJson MitsubaImport::listed_spectrum_of(const Node& node, Role role) {
   std::vector<double> wavelengths = list("wavelengths");
   if (std::strcmp(node.attribute("type").value(), "regular") == 0) {
     const double low = xml_.number(node, "wavelength_min", 360), high = xml_.number(node, "wavelength_max", 830);
-    for (std::size_t i = 0; i < values.size(); i++) wavelengths.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(values.size() - 1));
+    for (std::size_t i = 0; i < values.size(); i++)
+      wavelengths.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(values.size() - 1));
   }
   return sampled_of(node, wavelengths, values, role);
 }
@@ -98,7 +103,8 @@ ImportJson MitsubaImport::spectrum_of(const Node& given, Role role) {
   if (tag == "texture") return texture_of(node);
   if (tag == "rgb") return rgb_of(node);
   if (tag == "spectrum" && (type == "d65" || type == "uniform"))
-    return scaled(type == "d65" ? ImportJson(1.0) : ImportJson{{"type", "constant"}, {"value", xml_.number(node, "value", 1)}}, xml_.number(node, "scale", 1));
+    return scaled(type == "d65" ? ImportJson(1.0) : ImportJson{{"type", "constant"}, {"value", xml_.number(node, "value", 1)}},
+                  xml_.number(node, "scale", 1));
   if (tag == "spectrum" && (type == "regular" || type == "irregular")) return listed_spectrum_of(node, role);
   if (tag == "spectrum" && type == "blackbody") {
     note(node, "a blackbody is normalised to a luminance of 1 here, and in W m^-2 sr^-1 nm^-1 there: set its \"scale\"");

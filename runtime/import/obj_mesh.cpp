@@ -1,4 +1,5 @@
-// OBJ files by tinyobjloader, which takes indices out of range and infinities for success: both are looked for here. Knows nothing of scenes.
+// OBJ files by tinyobjloader, which takes indices out of range and infinities for success: both are looked for here. Knows nothing of
+// scenes.
 #include <tiny_obj_loader.h>
 
 #include <cmath>
@@ -26,10 +27,12 @@ struct Numbers {
 // Keeps a mesh parallel: corners that differ in anything become positions of their own.
 class CornerMerger {
  public:
-  explicit CornerMerger(const tinyobj::attrib_t& attributes) : positions_{attributes.vertices, 3}, normals_{attributes.normals, 3}, uvs_{attributes.texcoords, 2} {}
+  explicit CornerMerger(const tinyobj::attrib_t& attributes)
+      : positions_{attributes.vertices, 3}, normals_{attributes.normals, 3}, uvs_{attributes.texcoords, 2} {}
 
   int index_of(const tinyobj::index_t& corner, bool with_normals, bool with_uvs) {
-    const auto [known, fresh] = known_.try_emplace({corner.vertex_index, corner.texcoord_index, corner.normal_index}, static_cast<int>(mesh.positions.size()));
+    const auto [known, fresh] =
+        known_.try_emplace({corner.vertex_index, corner.texcoord_index, corner.normal_index}, static_cast<int>(mesh.positions.size()));
     if (!fresh) return known->second;
     const int v = corner.vertex_index, n = corner.normal_index, t = corner.texcoord_index;
     mesh.positions.push_back({positions_.at(v, 0), positions_.at(v, 1), positions_.at(v, 2)});
