@@ -16,7 +16,8 @@ namespace stokes {
 namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-constexpr double kNothing = 1e-9;   // a distance that counts as none
+constexpr double kNothing = 1e-9;  // a distance that counts as none
+constexpr std::size_t kRun = 32;
 constexpr std::size_t kPlaces = 6;  // of a surface that are looked at
 const Vec3d kDirections[] = {{0.36, 0.48, 0.8}, {-0.64, 0.6, -0.48}, {0.6, -0.64, -0.48}, {-0.48, -0.6, 0.64}};
 
@@ -39,18 +40,25 @@ struct Triangle {
   bool turned = false;  // its front is not where its winding says
 };
 
+struct Box {
+  Vec3d low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
+
+  void add(Vec3d p) { low = min(low, p), high = max(high, p); }
+};
+
 /// A sphere, or triangles, in its own frame.
 struct Solid {
   Affine to_world;
   double radius = 0;  // 0: triangles
   std::vector<Triangle> triangles;
-  Vec3d low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
+  std::vector<Box> boxes;  // of every kRun triangles that follow each other, which in most files lie close together
   bool flip = false;
   ImportJson inside, outside;  // null: vacuum
 
   void add(const Triangle& t) {
+    if (triangles.size() % kRun == 0) boxes.emplace_back();
     triangles.push_back(t);
-    for (const Vec3d& p : {t.a, t.b, t.c}) low = min(low, p), high = max(high, p);
+    for (const Vec3d& p : {t.a, t.b, t.c}) boxes.back().add(p);
   }
 
   std::vector<Vec3d> places() const {
@@ -90,7 +98,7 @@ void meet_sphere(double radius, Vec3d o, Vec3d d, Hit& hit) {
   }
 }
 
-bool misses_box(const Solid& s, Vec3d o, Vec3d d) {
+bool misses(const Box& s, Vec3d o, Vec3d d) {
   double near = 0, far = kEndless;
   for (const auto& [at, along, low, high] :
        {std::tuple{o.x, d.x, s.low.x, s.high.x}, std::tuple{o.y, d.y, s.low.y, s.high.y}, std::tuple{o.z, d.z, s.low.z, s.high.z}}) {
@@ -107,8 +115,11 @@ Hit meet(const Solid& s, Vec3d point, Vec3d direction) {
   Hit hit;
   if (s.radius > 0) {
     meet_sphere(s.radius, o, d, hit);
-  } else if (!misses_box(s, o, d)) {
-    for (const Triangle& t : s.triangles) meet_triangle(t, o, d, hit);
+  } else {
+    for (std::size_t run = 0; run < s.boxes.size(); run++) {
+      if (misses(s.boxes[run], o, d)) continue;
+      for (std::size_t i = run * kRun; i < std::min((run + 1) * kRun, s.triangles.size()); i++) meet_triangle(s.triangles[i], o, d, hit);
+    }
   }
   hit.from_inside ^= s.flip;
   return hit;
