@@ -16,7 +16,7 @@ if [ "${1:-}" != --report ]; then
   status=$?
 fi
 # Lines that only fatal errors of the system reach count like all others; tests and embedded pages do not.
-gcovr --gcov-executable 'llvm-cov gcov' --root "$source_dir" --filter "$source_dir/runtime/" --exclude-unreachable-branches --sort-percentage "$build" > "$build/coverage.txt"
+gcovr --gcov-executable 'llvm-cov gcov' --root "$source_dir" --filter "$source_dir/runtime/" --exclude-unreachable-branches --exclude-directories counters_of_the_killed --sort-percentage "$build" > "$build/coverage.txt"
 awk '/^runtime/ {split($1, p, "/"); n[p[2]] += $2; hit[p[2]] += $3}
      END {for (f in n) printf "%-12s %6d lines %6.1f %%\n", f, n[f], 100 * hit[f] / n[f]}' "$build/coverage.txt" | sort
 tail -2 "$build/coverage.txt"
