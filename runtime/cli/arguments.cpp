@@ -49,7 +49,7 @@ double parse_duration(const std::string& option, const std::string& text) {
   if (unit == "h") scale = 3600;
   if (scale == 0) throw UsageError(option + ": '" + text + "' has no unit that is known; use ms, s, m or h");
   const double seconds = to_number(option, text.substr(0, unit_at)) * scale;
-  if (seconds <= 0) throw UsageError(option + ": '" + text + "' is not a positive time");
+  if (seconds <= 0) throw UsageError(option + ": '" + text + "' is not a positive time" + (option == "--checkpoint" ? "; 'none' is without checkpoints" : ""));
   return seconds;
 }
 

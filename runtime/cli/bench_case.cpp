@@ -127,6 +127,8 @@ bool check_parity(const BenchCase& c, SceneOptions options, BenchResult& result)
 }  // namespace
 
 std::vector<BenchCase> read_suite(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw InputError(path + (fs::exists(path, error) ? ": is no regular file" : ": there is no such file"));
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be opened");
   try {

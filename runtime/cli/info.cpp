@@ -9,6 +9,7 @@
 #include "cli/exit_codes.h"
 #include "image/film_file.h"
 #include "image/image_file.h"
+#include "input/text.h"
 
 namespace stokes {
 namespace {
@@ -57,10 +58,11 @@ Json describe_image(const Image& image) {
 void print(const Json& j, const std::string& indent) {
   for (const auto& [key, value] : j.items()) {
     if (value.is_object()) {
-      std::printf("%s%s:\n", indent.c_str(), key.c_str());
+      std::printf("%s%s:\n", indent.c_str(), visible_line(key).c_str());
       print(value, indent + "  ");
     } else {
-      std::printf("%s%s: %s\n", indent.c_str(), key.c_str(), value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+      const std::string text = value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      std::printf("%s%s: %s\n", indent.c_str(), visible_line(key).c_str(), visible_line(text).c_str());
     }
   }
 }

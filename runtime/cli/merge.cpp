@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/outputs.h"
+#include "cli/overwriting.h"
 #include "image/error.h"
 #include "image/replace_file.h"
 
@@ -46,11 +47,12 @@ void require_complete(const std::vector<Part>& parts) {
   if (next < total) throw InputError("the samples " + range_text(next, total) + " are missing (after " + parts.back().path + ")");
 }
 
-FilmRecord add_parts(std::vector<Part>& parts) {
+/// The whole, of the sum of all films and of what the parts say besides.
+FilmRecord add_parts(std::vector<Part>& parts, Film film) {
   FilmRecord whole = std::move(parts.front().record);
+  whole.film = std::move(film);
   for (std::size_t i = 1; i < parts.size(); i++) {
     const FilmRecord& part = parts[i].record;
-    film_accumulate(whole.film, part.film);
     whole.sample_end = part.sample_end;
     whole.render_seconds += part.render_seconds;
     whole.rays += part.rays;
@@ -67,15 +69,29 @@ FilmRecord add_parts(std::vector<Part>& parts) {
 }
 
 int run_merge(MergeOptions o) {
+  require_no_input(o.output, o.parts, "the merge");
   require_outputs(o.output);
   std::vector<Part> parts;
+  // Sums do not depend on the order: each part is added when it is read, so that two films need memory, not as many as there are parts.
+  Film sum;
   for (const std::string& path : o.parts) {
     parts.push_back({path, read_film(path)});
     require_same_render(parts.back(), parts.front());
+    Film& film = parts.back().record.film;
+    std::vector<std::int64_t> words = std::move(film.words);
+    film.words = {};
+    if (parts.size() == 1) {
+      sum = film;
+      sum.words = std::move(words);
+      continue;
+    }
+    Film part = film;
+    part.words = std::move(words);
+    film_accumulate(sum, part);
   }
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.record.sample_begin < b.record.sample_begin; });
   require_complete(parts);
-  const FilmRecord whole = add_parts(parts);
+  const FilmRecord whole = add_parts(parts, std::move(sum));
   for (const auto& [name, value] : whole.notes) o.output.variance |= name == kVarianceNote;
   for (const std::string& file : write_outputs(whole, o.output)) std::cout << file << "\n";
   const FilmTotals totals = film_totals(whole.film);

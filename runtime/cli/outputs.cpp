@@ -54,7 +54,9 @@ Image picture(const FilmRecord& record, bool variance) {
   note("stokes:device", record.identity.device);
   note("stokes:integrator", record.identity.integrator);
   note("stokes:render_seconds", seconds);
-  for (const auto& [name, value] : record.notes) image.metadata.emplace_back(name, value);
+  // A part's notes are a stranger's: others' names are an encoder's orders, such as a compression with losses.
+  for (const auto& [name, value] : record.notes)
+    if (name.starts_with("stokes:")) image.metadata.emplace_back(name, value);
   return image;
 }
 

@@ -13,6 +13,7 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
+#include "cli/overwriting.h"
 #include "cli/render_job.h"
 #include "cli/scene_options.h"
 #include "cli/supervisor.h"
@@ -20,6 +21,7 @@
 #include "device/error.h"
 #include "image/error.h"
 #include "image/replace_file.h"
+#include "input/text.h"
 
 namespace stokes {
 namespace {
@@ -112,7 +114,7 @@ void adopt_checkpoint(const RenderOptions& o, Plan& plan, int sample_end, FilmRe
     reason = "it begins with sample " + std::to_string(found.sample_begin) + ", not " + std::to_string(record.sample_begin);
   if (reason.empty() && found.sample_end > sample_end)
     reason = "it already holds the samples up to " + std::to_string(found.sample_end) + ", more than the " + std::to_string(sample_end) + " asked for";
-  if (!reason.empty()) throw InputError(path + ": cannot be resumed: " + reason);
+  if (!reason.empty()) throw InputError(path + ": cannot be resumed: " + reason + "; --restart begins anew");
   found.samples_total = record.samples_total;
   found.notes = record.notes;
   record = std::move(found);
@@ -177,6 +179,19 @@ std::unique_ptr<Backend> prepare(const RenderOptions& o, const LoadedScene& scen
   return backend;
 }
 
+/// The checkpoint of an interrupted render. Where it cannot be written, the picture so far is at least tried before the error is told.
+void save_interrupted(const RenderOptions& o, const Plan& plan, const RenderJob& job) {
+  const FilmRecord& record = job.record;
+  try {
+    write_film(plan.checkpoint_path, record);
+  } catch (const OutputError&) {
+    write_outputs(record, o.output);
+    throw;
+  }
+  std::fprintf(stderr, "interrupted after %d of %d samples per pixel; saved %s, continue with --resume\n", record.sample_end - record.sample_begin,
+               job.sample_end - record.sample_begin, plan.checkpoint_path.c_str());
+}
+
 /// Everything after the last sample: files, checkpoint, messages, exit code.
 int conclude(const RenderOptions& o, const Plan& plan, const RenderJob& job, RenderEnd end, const Timing& timing, bool checkpoint_is_ours) {
   const FilmRecord& record = job.record;
@@ -186,9 +201,7 @@ int conclude(const RenderOptions& o, const Plan& plan, const RenderJob& job, Ren
       std::fprintf(stderr, "interrupted before the first sample pass was complete: nothing to save\n");
       return kExitInterrupted;
     }
-    write_film(plan.checkpoint_path, record);
-    std::fprintf(stderr, "interrupted after %d of %d samples per pixel; saved %s, continue with --resume\n", samples,
-                 job.sample_end - record.sample_begin, plan.checkpoint_path.c_str());
+    save_interrupted(o, plan, job);
   }
   const std::vector<std::string> files = write_outputs(record, o.output);
   if (end != RenderEnd::Interrupted && checkpoint_is_ours) fs::remove(plan.checkpoint_path);
@@ -229,6 +242,7 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
   const LoadedScene scene = load_scene(o.scene, o.scene_options, plan.aovs, plan.bins, o.quiet);
   if (!o.expect_scene.empty() && o.expect_scene != scene.hash)
     throw InputError(o.scene + ": is not the scene that is expected: its hash is " + scene.hash + ", not " + o.expect_scene);
+  require_no_input(o.output, scene.description.files, "the scene");
   RenderJob job;
   job.record = empty_record(o, scene);
   job.sample_end = o.samples.empty() ? job.record.samples_total : parse_samples(o.samples).second;
@@ -247,9 +261,14 @@ int render_scene(RenderOptions o, Plan plan, const WorkerAttempt& attempt) {
   if (o.checkpoint.empty()) job.checkpoint_share = kCheckpointShare;
   job.save_checkpoint = [&](const FilmRecord& record) {
     enter_stage(WorkStage::Writing);
-    write_film(plan.checkpoint_path, record);
-    checkpoint_is_ours = true;
-    tell_checkpoint_saved();
+    // A disk that is full now may not be when the picture is written, and a render of hours is worth the try.
+    try {
+      write_film(plan.checkpoint_path, record);
+      checkpoint_is_ours = true;
+      tell_checkpoint_saved();
+    } catch (const OutputError& error) {
+      std::fprintf(stderr, "warning: %s; rendering goes on\n", visible_line(error.what()).c_str());
+    }
     enter_stage(WorkStage::Rendering);
   };
   if (display) job.publish = [&display](const FilmRecord& record) { display(record.film); };

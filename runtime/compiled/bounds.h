@@ -7,6 +7,9 @@
 
 namespace stokes::compiled {
 
+/// What lies farther from the origin, in scene units, overflows when it is squared in single precision.
+constexpr double kFarthestCoordinate = 1e15;
+
 struct Bounds {
   Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec3d high{-low.x, -low.y, -low.z};

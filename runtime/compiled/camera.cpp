@@ -1,4 +1,5 @@
 // The camera's basis and lens, and the medium that it stands in.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +20,11 @@ void check_camera(const Compilation& c, const CameraDescription& camera) {
   if (camera.width <= 0 || camera.height_pixels <= 0) c.fail(camera.pointer, "the resolution must be positive");
   if (!(camera.aperture >= 0)) c.fail(camera.pointer, "the aperture must not be negative");
   if (camera.aperture > 0 && !(camera.fdist > 0)) c.fail(camera.pointer, "fdist must be positive");
+  const Vec3d x = camera.transform.column(0), y = camera.transform.column(1), z = camera.transform.column(2);
+  const double aspect = double(camera.width) / camera.height_pixels;
+  const double film = camera.orthographic ? camera.height * std::max(aspect * length(x), length(y)) : 0;
+  const double lens = camera.aperture > 0 ? camera.aperture * length(x) + camera.fdist * length(z) : 0;
+  if (!(length(camera.transform.translation()) + film + lens <= kFarthestCoordinate)) c.fail(camera.pointer, "the camera, its film or its focus lies farther than 1e15 from the origin, beyond what single precision can be trusted with");
 }
 
 // The side of the first surface along the view tells the medium; nothing in view is vacuum.

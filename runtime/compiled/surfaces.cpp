@@ -1,6 +1,8 @@
 // From surface descriptions to primitives in world space, each with its surface record.
+#include <algorithm>
 #include <cmath>
 
+#include "compiled/bounds.h"
 #include "compiled/compilation.h"
 #include "compiled/shapes.h"
 
@@ -73,9 +75,21 @@ void append_quad(Compilation& c, const SurfaceDescription& s, std::uint32_t inde
   c.out.quads.push_back(*quad);
 }
 
+/// How far the points of a surface can lie from its own origin.
+double extent(const SurfaceDescription& s) {
+  if (s.kind == SurfaceKind::Quad) return std::hypot(s.width, s.height) / 2;
+  if (s.kind == SurfaceKind::Sphere) return std::abs(s.radius);
+  double most = 0;
+  if (s.mesh)
+    for (const Vec3d& p : s.mesh->positions) most = std::max(most, length(p));
+  return most;
+}
+
 void require_finite(const Compilation& c, const SurfaceDescription& s) {
   for (double v : s.transform.m)
     if (!std::isfinite(v)) c.fail(s.pointer, "the transform is not finite");
+  const double scale = std::max({length(s.transform.column(0)), length(s.transform.column(1)), length(s.transform.column(2))});
+  if (!(length(s.transform.translation()) + scale * extent(s) <= kFarthestCoordinate)) c.fail(s.pointer, "the surface reaches farther than 1e15 from the origin, beyond what single precision can be trusted with");
 }
 
 }  // namespace

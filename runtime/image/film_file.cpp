@@ -150,6 +150,12 @@ FilmRecord parse_header(const std::string& path, const Header& h) {
   return r;
 }
 
+std::string note_of(const FilmRecord& record, const char* wanted) {
+  for (const auto& [name, value] : record.notes)
+    if (name == wanted) return value;
+  return {};
+}
+
 std::uint64_t word_at(const std::string& bytes, std::size_t at) {
   std::uint64_t word = 0;
   std::memcpy(&word, bytes.data() + at, sizeof word);
@@ -245,13 +251,21 @@ bool holds_film(const std::string& path) {
 std::string film_mismatch(const FilmRecord& found, const FilmRecord& wanted) {
   const FilmIdentity &a = found.identity, &b = wanted.identity;
   if (a.version != b.version) return "it was made by version " + a.version + ", not " + b.version;
-  if (a.scene_hash != b.scene_hash) return "it belongs to another scene (hash " + a.scene_hash + ", not " + b.scene_hash + ")";
   if (a.seed != b.seed) return "its seed is " + std::to_string(a.seed) + ", not " + std::to_string(b.seed);
   const auto size = [](const Film& f) {
     return std::to_string(f.width) + "x" + std::to_string(f.height) + " at " + std::to_string(f.crop_x) + "," + std::to_string(f.crop_y);
   };
   if (size(found.film) != size(wanted.film)) return "its window is " + size(found.film) + ", not " + size(wanted.film);
   if (found.film.channels != wanted.film.channels) return "it holds other AOVs";
+  const auto bins = [](const Film& f) { return std::to_string(f.spectral_bins) + " of " + exact(f.spectral_begin) + " to " + exact(f.spectral_end) + " nm"; };
+  if (bins(found.film) != bins(wanted.film)) return "its spectral bins are " + bins(found.film) + ", not " + bins(wanted.film);
+  // Where one of the two does not say, as manifests of jobs, the scene's hash does.
+  if (!a.integrator.empty() && !b.integrator.empty() && a.integrator != b.integrator) return "its integrator is " + a.integrator + ", not " + b.integrator;
+  for (const auto& [name, label] : {std::pair("stokes:mode", "its mode is "), std::pair("stokes:wavelengths_per_path", "its wavelengths per path are ")}) {
+    const std::string mine = note_of(found, name), theirs = note_of(wanted, name);
+    if (!mine.empty() && !theirs.empty() && mine != theirs) return label + mine + ", not " + theirs;
+  }
+  if (a.scene_hash != b.scene_hash) return "it belongs to another scene, or to other settings of it (hash " + a.scene_hash + ", not " + b.scene_hash + ")";
   if (!film_same_kind(found.film, wanted.film)) return "its film holds other channels or other units";
   return {};
 }

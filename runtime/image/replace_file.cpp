@@ -21,13 +21,16 @@ namespace fs = std::filesystem;
   throw OutputError(path + ": cannot be written: " + cause);
 }
 
+constexpr int kMostLinks = 40;  // in a row, as Linux has it
+
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
 /// The file that will really be replaced, and the checks that need no writing.
 fs::path resolve_target(const std::string& path) {
   std::error_code ec;
   fs::path target = path;
-  for (int depth = 0; fs::is_symlink(fs::symlink_status(target, ec)) && depth < 40; depth++) {
+  for (int depth = 0; fs::is_symlink(fs::symlink_status(target, ec)); depth++) {
+    if (depth == kMostLinks) fail(path, std::strerror(ELOOP));
     const fs::path link = fs::read_symlink(target, ec);
     if (ec) fail(path, ec.message());
     target = link.is_absolute() ? link : target.parent_path() / link;
@@ -35,6 +38,8 @@ fs::path resolve_target(const std::string& path) {
   const fs::file_status status = fs::status(target, ec);
   if (fs::is_directory(status)) fail(path, "it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "it is not a regular file");
+  // The folder alone would permit to replace it.
+  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, ec)) fail(path, "there is no folder " + folder.string());
   return target;
@@ -51,6 +56,12 @@ constexpr char kEnding[] = ".tmp";
 
 fs::path temporary_beside(const fs::path& target) {
   return (folder_of(target) / (temporary_stem(target) + std::to_string(::getpid()) + kEnding)).lexically_normal();
+}
+
+/// A new file: where others may write, the name might stand already, as a link to a file of the user's. Returns -1, and errno, where that fails.
+int open_temporary(const fs::path& temporary) {
+  ::unlink(temporary.c_str());
+  return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
 /// Whether a process has ended, though its parent may not have looked yet.
@@ -107,7 +118,7 @@ void replace_file(const std::string& path, const std::function<void(const std::s
 void require_writable(const std::string& path) {
   const fs::path target = resolve_target(path), temporary = temporary_beside(target);
   remove_stale_temporaries(target);
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  const int fd = open_temporary(temporary);
   if (fd < 0) fail(path, std::strerror(errno));
   ::close(fd);
   ::unlink(temporary.c_str());
@@ -115,7 +126,7 @@ void require_writable(const std::string& path) {
 
 void write_bytes(const std::string& path, const std::string& bytes) {
   replace_file(path, [&](const std::string& temporary) {
-    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const int fd = open_temporary(temporary);
     if (fd < 0) throw std::runtime_error(std::strerror(errno));
     std::size_t done = 0;
     while (done < bytes.size()) {

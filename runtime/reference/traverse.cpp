@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,8 @@ struct Query {
   double t_min;
   Hit hit;
 };
+
+constexpr double kFarthest = 1e18;  // of a coordinate, in scene units
 
 /// The least float that is not below x.
 float round_up(double x) {
@@ -107,12 +110,14 @@ Traversal::~Traversal() = default;
 
 Hit Traversal::closest_hit(const Ray& ray, double t_max, std::uint32_t skip) const {
   Query query{};
+  query.hit.t = t_max;
+  // Embree ends the program (an assertion) for rays that begin farther away than this, as in a fog of 1e-20 per unit: they meet nothing.
+  if (!(std::max({std::abs(ray.o.x), std::abs(ray.o.y), std::abs(ray.o.z)}) < kFarthest)) return query.hit;
   rtcInitIntersectContext(&query.context);
   query.scene = state_->scene;
   query.ray = &ray;
   query.skip = skip;
   query.t_min = state_->t_min;
-  query.hit.t = t_max;
 
   RTCRayHit rayhit{};
   rayhit.ray.org_x = static_cast<float>(ray.o.x), rayhit.ray.org_y = static_cast<float>(ray.o.y), rayhit.ray.org_z = static_cast<float>(ray.o.z);

@@ -50,6 +50,9 @@ SceneDescription read_scene(const std::string& path, const SceneOverrides& overr
   const auto unreadable = [&](const std::string& why) { throw SceneError(path, {1, 1}, "", "the scene cannot be read: " + why); };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable("it is a folder");
+  // One that lies in a folder of scenes would be waited for; a shell's <(...) and /dev/stdin are pipes that somebody writes to.
+  const bool of_a_shell = path.starts_with("/dev/") || path.starts_with("/proc/");
+  if (!of_a_shell && std::filesystem::is_fifo(path, error)) unreadable("it is a pipe; pipes are read as /dev/stdin");
   std::ifstream file(path, std::ios::binary);
   if (!file) unreadable(std::strerror(errno));
   // The scene itself may be a pipe, whose size shows only at its end.

@@ -41,6 +41,43 @@ expect 0 "$STOKES" check "$FIXTURES/small.json"
 expect 2 render --set /camera/vfov=900
 says err.txt 'vfov'
 
+# Values that CLI11 would let pass: empty ones, NaN, and leading zeros, which it takes for octal.
+for flags in '--seed 010' '--spp 012' '--png --exposure nan'; do
+  # shellcheck disable=SC2086
+  expect 64 render -o x.exr $flags
+done
+for option in -o --samples --device --checkpoint --size --aov; do
+  expect 64 "$STOKES" render "$FIXTURES/small.json" "$option" ''
+  says err.txt 'is empty'
+done
+expect 64 "$STOKES" rendr "$FIXTURES/small.json"
+says err.txt "there is no command called 'rendr'"
+
+# Names that steer a terminal or break lines.
+strange=$(printf 'a\033[31mb\nc')
+expect 2 "$STOKES" info "$strange"
+[ "$(wc -l <err.txt)" -eq 1 ] || fail "a name with a line feed breaks the line: $(cat err.txt)"
+grep -q "$(printf '\033')" err.txt && fail 'a name steers the terminal'
+expect 5 render -o "$strange/x.exr"
+[ "$(wc -l <err.txt)" -eq 1 ] || fail 'a name with a line feed breaks the line of an output error'
+
+# A pipe that nobody writes to is not waited for; one of the shell's is read.
+mkfifo pipe.json
+expect 2 timeout 20 "$STOKES" check pipe.json
+says err.txt '^pipe.json:1:1: error: .*pipe'
+expect 2 timeout 20 "$STOKES" bench --suite pipe.json
+expect 0 sh -c 'cat "$2" | "$1" check /dev/stdin' sh "$STOKES" "$FIXTURES/small.json"
+
+# Numbers beyond single precision: refused, or told apart from surfaces, but no crash (an assertion of Embree's).
+expect 2 render --set /surfaces/0/radius=1e19
+says err.txt '/surfaces/0: .*1e15'
+expect 2 render --set '/camera/transform={"translate":[1e19,0,0]}'
+says err.txt '/camera: .*1e15'
+expect 2 render --set /camera/aperture=1e19
+printf '{"camera": {"resolution": [4, 3]}, "sampler": {"samples": 4}, "background": 1, "media": [{"type": "homogeneous", "name": "fog", "sigma_t": 1e-20, "albedo": 0.99}],
+ "surfaces": [{"type": "sphere", "material": {"type": "interface"}, "inside": "fog", "outside": "fog"}]}' >thin.json
+expect 0 "$STOKES" render thin.json --device reference -q -o thin.exr
+
 # Limits, and files of strangers.
 expect 2 render --limit pixels=100 -o x.exr
 says err.txt 'small\.json:[0-9]+:[0-9]+: error: /camera/resolution: .*--limit pixels'
@@ -88,6 +125,31 @@ mkdir folder.exr
 expect 5 render -o folder.exr
 ln -s /dev/full full.exr
 expect 5 render -o full.exr
+ln -s round.exr circle.exr
+ln -s circle.exr round.exr
+expect 5 render -o circle.exr
+[ -L circle.exr ] || fail 'a circle of links was replaced'
+# A picture that the scene reads, and one that a page would overwrite.
+expect 0 render -o sky.png --spp 1
+cp sky.png sky.kept
+expect 64 render -o sky.png --allow-outside --set '/background={"type":"environment","filename":"'"$WORK"'/sky.png"}'
+says err.txt 'sky.png would be overwritten, and the scene reads it'
+expect 64 "$STOKES" compare sky.png sky.png --html sky.png
+cmp -s sky.png sky.kept || fail 'a picture was overwritten'
+# A disk without room for checkpoints: the render goes on, and its picture, which is smaller, is written.
+expect 0 prlimit --fsize=10000 "$STOKES" render "$FIXTURES/small.json" --device reference -q --spp 100000000 --max-time 2s --checkpoint 200ms -o room.exr
+says err.txt '^warning: room.exr.checkpoint: cannot be written: .*; rendering goes on'
+[ -s room.exr ] || fail 'a full disk for checkpoints lost the picture'
+# Closed standard streams: no file takes their place, into which messages would then be written.
+expect 0 sh -c '"$@" 2>&-' sh "$STOKES" render "$FIXTURES/small.json" --device reference -o closed.exr --progress plain
+"$STOKES" render "$FIXTURES/small.json" --device reference -q --spp 500000000 --checkpoint none -o closed.exr <&- >&- 2>&- &
+pid=$!
+sleep 1
+for stream in 0 1 2; do
+  [ "$(readlink "/proc/$pid/fd/$stream")" = /dev/null ] || fail "the closed stream $stream is free for any file"
+done
+kill -9 $pid
+wait $pid 2>/dev/null
 printf old >old.exr
 expect 5 sh -c 'ulimit -f 1; "$@"' sh "$STOKES" render "$FIXTURES/small.json" --device reference -q -o old.exr --size 64x64 --spp 1
 [ "$(cat old.exr)" = old ] || fail 'a failed write damaged the old file'
@@ -144,6 +206,10 @@ if [ "$(id -u)" -eq 0 ]; then
   as_user='setpriv --reuid=65534 --regid=65534 --clear-groups' program=$WORK/stokes
   cp "$STOKES" stokes
 fi
+unwritable 'Permission denied'
+# A file that may not be written, in a folder that may.
+chmod 777 disk
+chmod 444 disk/old.exr disk/old.png
 unwritable 'Permission denied'
 chmod 755 disk
 rm -rf stokes disk

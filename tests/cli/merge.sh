@@ -41,4 +41,9 @@ cp p3.film flipped.film
 printf '\001' | dd of=flipped.film bs=1 seek=2500 conv=notrunc 2>/dev/null
 refused 'flipped.film: is damaged: its checksum' p1.exr p2.exr flipped.film
 refused 'missing.exr: cannot be opened' p1.exr missing.exr
+# No part is lost to the whole that is made of it.
+cp p1.exr mine.exr
+expect 64 "$STOKES" merge -o mine.exr mine.exr p2.exr p3.film
+says err.txt 'mine.exr would be overwritten, and the merge reads it'
+cmp -s p1.exr mine.exr || fail 'a part was overwritten'
 finish

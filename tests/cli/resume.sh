@@ -43,6 +43,12 @@ for change in '--seed 77' '--size 8x8' '--set /background=0.9' '--aov albedo'; d
   expect 2 long -o a.exr --spp $total --resume $change
   says err.txt 'a.exr.checkpoint: cannot be resumed: it'
 done
+for change in '--mode rgb:mode is spectral, not rgb' '--integrator nee:integrator is .*, not nee' '--wavelengths-per-path 8:wavelengths per path are 4, not 8' \
+  '--spectral 400:700:3:spectral bins are 0' '--set /camera/fdist=2:other settings of it'; do
+  # shellcheck disable=SC2086
+  expect 2 long -o a.exr --spp $total --resume $(printf '%s' "$change" | sed 's/:[a-z][^:]*$//')
+  says err.txt "cannot be resumed: .*${change##*:}.*--restart begins anew"
+done
 expect 2 long -o a.exr --spp 1 --resume
 says err.txt 'more than the 1 asked for'
 cmp -s saved a.exr.checkpoint || fail 'a refused checkpoint was changed'

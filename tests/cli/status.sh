@@ -59,7 +59,7 @@ expect 0 "$STOKES" compare one.exr five.exr --exact
 
 # Another render does not get into the folder; a scene that has changed meanwhile is refused; so is what is no job.
 expect 2 plan -o five.exr --dir five --parts 5 --seed 9
-says err.txt 'five: holds another job: it belongs to another scene'
+says err.txt 'five: holds another job: its window is'
 expect 2 plan -o five.exr --dir five --parts 4 --set /background=0.1 --crop 2,9,1,7 --seed 9
 says err.txt 'its job has 5 parts, not 4'
 cp "$small" changing.json
