@@ -105,7 +105,7 @@ mkdir hostile && cd hostile || exit 1
 refuse() {
   pattern=$1
   shift
-  expect 2 timeout 30 "$STOKES" import "$@" -o x.json
+  expect 2 timeout 120 "$STOKES" import "$@" -o x.json
   says err.txt "$pattern"
 }
 # mitsuba NAME BODY, pbrt NAME BODY: a scene of these elements or directives.
