@@ -87,7 +87,7 @@ Image read_picture(const std::string& path) {
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 int run_compare(const CompareOptions& o) {
-  require_page_name(o.html);
+  require_no_other_file(o.html);
   const Image a = read_picture(o.a), b = read_picture(o.b);
   const ImageDifference difference = compare_images(a, b);
   std::optional<ParityResult> parity;

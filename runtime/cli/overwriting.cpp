@@ -1,7 +1,11 @@
 // See overwriting.h.
 #include "cli/overwriting.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/outputs.h"
@@ -17,8 +21,16 @@ void require_no_input(const OutputOptions& options, const std::vector<std::strin
       if (std::filesystem::equivalent(output, input, error)) throw UsageError("-o: " + output + " would be overwritten, and " + reader + " reads it");
 }
 
-void require_page_name(const std::string& path) {
-  if (!path.empty() && !path.ends_with(".html") && !path.ends_with(".htm")) throw UsageError("--html: '" + path + "' does not end in .html");
+void require_no_other_file(const std::string& path) {
+  constexpr std::string_view kPage = "<!doctype html";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(kPage.size(), '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  std::transform(begin.begin(), begin.end(), begin.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!begin.empty() && begin != kPage) throw UsageError("--html: " + path + " exists and is no HTML page; it is not overwritten");
 }
 
 }  // namespace stokes

@@ -102,7 +102,7 @@ int compare_all(const ParityCommand& o) {
   ParityOptions options = o.parity;
   options.alpha = -std::expm1(std::log1p(-options.alpha) / static_cast<double>(o.scenes.size() * devices.size()));
   const SpectralBins bins = o.spectral.empty() ? SpectralBins{} : parse_spectral(o.spectral);
-  require_page_name(o.html);
+  require_no_other_file(o.html);
   if (!o.html.empty()) require_writable(o.html);
   bool agree = true;
   std::vector<ReportCase> cases;

@@ -135,6 +135,9 @@ cp sky.png sky.kept
 expect 64 render -o sky.png --allow-outside --set '/background={"type":"environment","filename":"'"$WORK"'/sky.png"}'
 says err.txt 'sky.png would be overwritten, and the scene reads it'
 expect 64 "$STOKES" compare sky.png sky.png --html sky.png
+says err.txt 'sky.png exists and is no HTML page'
+expect 0 "$STOKES" compare sky.png sky.png --html page
+expect 0 "$STOKES" compare sky.png sky.png --html page
 cmp -s sky.png sky.kept || fail 'a picture was overwritten'
 # A disk without room for checkpoints: the render goes on, and its picture, which is smaller, is written.
 expect 0 prlimit --fsize=10000 "$STOKES" render "$FIXTURES/small.json" --device reference -q --spp 100000000 --max-time 2s --checkpoint 200ms -o room.exr
