@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "input/open_image.h"
 
@@ -11,6 +14,8 @@ namespace stokes {
 namespace {
 
 float decode_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+constexpr std::uint64_t kMostPixelsAByte = 250'000;  // more than any format's densest picture of one colour has
 
 // The pixels as they come and as they are kept; texels are counted with the scene.
 void require_size(const ImageHeader& header, const std::string& path, const InputLimits& limits) {
@@ -20,6 +25,10 @@ void require_size(const ImageHeader& header, const std::string& path, const Inpu
     throw std::runtime_error("it has " + size + "of a side is " + std::to_string(limits.image_side) + " (--limit image-side)");
   if (width * height > limits.image_pixels)
     throw std::runtime_error("it has " + size + "is " + std::to_string(limits.image_pixels) + " (--limit image-pixels)");
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (!error && width * height / kMostPixelsAByte > bytes)
+    throw std::runtime_error("its header says " + std::to_string(width) + "x" + std::to_string(height) + " pixels, and the file has " + std::to_string(bytes) + " bytes");
   require_memory(limits, width * height * 6 * sizeof(float), path);
 }
 

@@ -185,6 +185,13 @@ TEST(SceneFiles, OnlyTheIntendedImageReaders) {
 }
 
 // Faults elsewhere are told before a mesh takes its seconds.
+TEST(SceneLimits, AHeaderClaimsNoMoreThanTheFileCanHold) {
+  const TemporaryFolder folder;
+  folder.file("small.ppm", "P6 16000 16000 255\n");
+  EXPECT_THAT(folder.error_of(with(R"("background": {"type": "environment", "filename": "small.ppm"})")),
+              testing::EndsWith("its header says 16000x16000 pixels, and the file has 19 bytes"));
+}
+
 TEST(SceneLimits, MeshesComeLast) {
   ReadOptions options;
   int calls = 0;
